@@ -1,11 +1,7 @@
-// DXF: entities become chains on a grid of 1/1024, chains that end in the same point are joined to
-// loops.
+// DXF: entities become chains on a grid of 1/1024.
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <map>
-#include <optional>
-#include <set>
 #include <utility>
 
 #include <glm/geometric.hpp>
@@ -15,6 +11,7 @@
 
 #include "primitives/base/text.h"
 #include "primitives/files/drawn_shape.h"
+#include "primitives/files/dxf_loops.h"
 #include "primitives/files/dxf_records.h"
 #include "primitives/files/flat_curves.h"
 #include "primitives/files/flat_formats.h"
@@ -29,44 +26,6 @@ constexpr size_t kMostEntities = 200000;  // those of a block count for each tim
 struct Placement {
   glm::dvec2 u{1, 0}, v{0, 1}, at{0, 0};
   [[nodiscard]] glm::dvec2 apply(const glm::dvec2& p) const { return p.x * u + p.y * v + at; }
-};
-
-/// Takes points to the places, 1/1024 apart, that OpenSCAD takes them to: the nearest one, or,
-/// where that has no point yet, one of its eight neighbours that has.
-class PointGrid {
- public:
-  using Key = std::pair<int64_t, int64_t>;
-  static Key key(const glm::dvec2& p) {
-    constexpr double kMost = 9e15;
-    return {std::llround(std::clamp(p.x * kSteps, -kMost, kMost)),
-            std::llround(std::clamp(p.y * kSteps, -kMost, kMost))};
-  }
-
-  glm::dvec2 aligned(const glm::dvec2& p) {
-    if (!(std::max(std::fabs(p.x), std::fabs(p.y)) < kFarthest)) return p;
-    Key place = key(p);
-    if (taken_.count(place) == 0) {
-      Key best = place;
-      int64_t least = 3;  // one step in each direction is two
-      for (int64_t x = place.first - 1; x <= place.first + 1; ++x) {
-        for (int64_t y = place.second - 1; y <= place.second + 1; ++y) {
-          const int64_t steps = std::abs(x - place.first) + std::abs(y - place.second);
-          if (steps >= least || taken_.count({x, y}) == 0) continue;
-          least = steps;
-          best = {x, y};
-        }
-      }
-      place = best;
-      taken_.insert(place);
-    }
-    return {static_cast<double>(place.first) / kSteps, static_cast<double>(place.second) / kSteps};
-  }
-
- private:
-  static constexpr double kSteps = 1024;
-  static constexpr double kFarthest = 1e12;  ///< beyond, doubles have no such steps
-
-  std::set<Key> taken_;
 };
 
 class DxfReader {
@@ -87,8 +46,7 @@ class DxfReader {
       file.notes.push_back(none);
     }
     for (auto& [layer, chains] : chains_) {
-      std::vector<Shape2D::Loop> loops;
-      join(chains, loops);
+      const std::vector<Shape2D::Loop> loops = join_to_loops(chains, options_.as_openscad, open_);
       Result<Shape2D> shape = drawn_shape(loops, FillRule::kEvenOdd);
       if (!shape) return Error{shape.error().code, name_ + ": " + shape.error().message, {}};
       if (!options_.parts) {
@@ -100,12 +58,12 @@ class DxfReader {
     for (const auto& [kind, count] : left_out_) {
       file.notes.push_back(name_ + ": " + kind + " left out (" + std::to_string(count) + ")");
     }
-    if (open_chains_ > 0) {
+    if (open_.count > 0) {
       file.notes.push_back(
-          name_ + ": " + std::to_string(open_chains_) +
-          (open_chains_ == 1 ? " line is not closed, its" : " lines are not closed, their") +
-          " ends were joined; the first begins at (" + number_text(first_open_.x) + ", " +
-          number_text(first_open_.y) + ")");
+          name_ + ": " + std::to_string(open_.count) +
+          (open_.count == 1 ? " line is not closed, its" : " lines are not closed, their") +
+          " ends were joined; the first begins at (" + number_text(open_.first.x) + ", " +
+          number_text(open_.first.y) + ")");
     }
     if (tilted_ > 0) {
       file.notes.push_back(name_ + ": " + std::to_string(tilted_) +
@@ -399,159 +357,16 @@ class DxfReader {
     return d[p].p / d[p].w;
   }
 
-  /// The ends of open chains that are not part of a line yet. Those in one place stay in order.
-  class FreeEnds {
-   public:
-    explicit FreeEnds(std::vector<Chain>& chains) : chains_(chains), used_(chains.size(), true) {}
-
-    void add(size_t chain) {
-      used_[chain] = false;
-      for (const glm::dvec2& end : {chains_[chain].points.front(), chains_[chain].points.back()})
-        ends_[PointGrid::key(end)].push_back(chain);
-    }
-    [[nodiscard]] bool is_used(size_t chain) const { return used_[chain]; }
-
-    /// The first chain that ends in p, turned so that it begins there; it is used then.
-    std::optional<Shape2D::Loop> take(const glm::dvec2& p) {
-      const std::vector<size_t>& here = at(p);
-      if (here.empty()) return std::nullopt;
-      const size_t chain = here.front();
-      Shape2D::Loop points = take(chain);
-      if (PointGrid::key(points.front()) != PointGrid::key(p))
-        std::reverse(points.begin(), points.end());
-      return points;
-    }
-    Shape2D::Loop take(size_t chain) {
-      used_[chain] = true;
-      alone_.erase(chain);
-      Shape2D::Loop points = std::move(chains_[chain].points);
-      for (const glm::dvec2& end : {points.front(), points.back()}) {
-        std::vector<size_t>& here = ends_[PointGrid::key(end)];
-        here.erase(std::find(here.begin(), here.end(), chain));
-        if (here.size() == 1) alone_.insert(here.front());
-      }
-      return points;
-    }
-
-    /// Notes chains of which an end is the only one in its place.
-    void look_for_lone_ends() {
-      for (const auto& [key, here] : ends_) {
-        if (here.size() == 1) alone_.insert(here.front());
-      }
-    }
-    /// The first of them, turned so that it begins there; it is used then.
-    std::optional<Shape2D::Loop> take_with_lone_end() {
-      if (alone_.empty()) return std::nullopt;
-      const size_t chain = *alone_.begin();
-      const bool begins_there = at(chains_[chain].points.front()).size() == 1;
-      Shape2D::Loop points = take(chain);
-      if (!begins_there) std::reverse(points.begin(), points.end());
-      return points;
-    }
-
-   private:
-    const std::vector<size_t>& at(const glm::dvec2& p) const {
-      static const std::vector<size_t> kNone;
-      const auto here = ends_.find(PointGrid::key(p));
-      return here != ends_.end() ? here->second : kNone;
-    }
-    std::vector<Chain>& chains_;
-    std::vector<bool> used_;
-    std::map<PointGrid::Key, std::vector<size_t>> ends_;
-    std::set<size_t> alone_;
-  };
-
-  static bool is_closed(const Shape2D::Loop& line) {
-    return PointGrid::key(line.front()) == PointGrid::key(line.back());
-  }
-
-  static void append(const Shape2D::Loop& more, Shape2D::Loop& line) {
-    line.insert(line.end(), more.begin() + 1, more.end());
-  }
-
-  /// Closed chains are loops; open ones are joined end to end, from the first on.
-  void join(std::vector<Chain>& chains, std::vector<Shape2D::Loop>& loops) {
-    FreeEnds ends(chains);
-    for (size_t i = 0; i < chains.size(); ++i) {
-      if (chains[i].closed || is_closed(chains[i].points)) {
-        loops.push_back(std::move(chains[i].points));
-      } else {
-        ends.add(i);
-      }
-    }
-    if (options_.as_openscad) return join_as_openscad(chains, ends, loops);
-    for (size_t i = 0; i < chains.size(); ++i) {
-      if (ends.is_used(i)) continue;
-      Shape2D::Loop line = ends.take(i);
-      // Both ways, so that it does not matter where in an open line the first chain lies.
-      for (int side = 0; side < 2; ++side) {
-        while (!is_closed(line)) {
-          const auto more = ends.take(line.back());
-          if (!more) break;
-          append(*more, line);
-        }
-        std::reverse(line.begin(), line.end());
-      }
-      add_line(std::move(line), loops);
-    }
-  }
-
-  /// Where more than two chains meet, OpenSCAD's order decides: first lines from ends that no other
-  /// chain has, then the rest from the first on; each goes on for as long as there is a chain, also
-  /// beyond its own start. It takes the latter for closed, and drops the first point of those that
-  /// are not, of the way round in which it puts them unless there are lines of the former kind.
-  void join_as_openscad(const std::vector<Chain>& chains, FreeEnds& ends,
-                        std::vector<Shape2D::Loop>& loops) {
-    const auto walk = [&](Shape2D::Loop line) {
-      while (const auto more = ends.take(line.back())) append(*more, line);
-      return line;
-    };
-    ends.look_for_lone_ends();
-    bool has_open_lines = false;
-    while (auto line = ends.take_with_lone_end()) {
-      has_open_lines = true;
-      add_line(walk(*std::move(line)), loops);
-    }
-    for (size_t i = 0; i < chains.size(); ++i) {
-      if (ends.is_used(i)) continue;
-      Shape2D::Loop line = walk(ends.take(i));
-      const bool closed = is_closed(line);
-      if (!closed && !has_open_lines && is_turned_by_openscad(line))
-        std::reverse(line.begin(), line.end());
-      add_line(std::move(line), loops);
-      if (!closed) loops.back().erase(loops.back().begin());
-    }
-  }
-
-  /// By the directions to the neighbours of the first of its leftmost points.
-  static bool is_turned_by_openscad(const Shape2D::Loop& line) {
-    const auto left_of = [](const glm::dvec2& a, const glm::dvec2& b) { return a.x < b.x; };
-    const auto b =
-        static_cast<size_t>(std::min_element(line.begin(), line.end(), left_of) - line.begin());
-    const glm::dvec2 before = line[b == 0 ? line.size() - 2 : b - 1] - line[b];
-    const glm::dvec2 after = line[b + 1 == line.size() ? 1 : b + 1] - line[b];
-    return atan2_deg(before.x, before.y) < atan2_deg(after.x, after.y);
-  }
-
-  void add_line(Shape2D::Loop line, std::vector<Shape2D::Loop>& loops) {
-    if (is_closed(line)) {
-      line.pop_back();
-    } else if (open_chains_++ == 0) {
-      first_open_ = line.front();
-    }
-    loops.push_back(std::move(line));
-  }
-
   const std::string& name_;
   const FlatFileOptions& options_;
   const DxfRecords& records_;
-  PointGrid grid_;
+  DxfGrid grid_;
   std::vector<std::pair<std::string, std::vector<Chain>>> chains_;  ///< of each layer
   std::map<std::string, size_t> place_of_layer_;
   std::string layer_;  ///< of what is read; empty for all where no parts are asked for
   std::map<std::string, size_t> left_out_;
-  size_t entities_ = 0, points_ = 0, open_chains_ = 0, tilted_ = 0, first_tilted_ = 0;
-  glm::dvec2 first_open_{};
+  size_t entities_ = 0, points_ = 0, tilted_ = 0, first_tilted_ = 0;
+  OpenLines open_;
   bool found_layer_ = false;
 };
 
