@@ -40,6 +40,7 @@ class DxfReader {
     placement.at = -options_.scale * options_.origin;
     if (auto status = entities(records_.entities, placement, "", 0); !status) return status.error();
     FlatFile file;
+    file.notes = records_.notes;
     if (options_.layer && !found_layer_) {
       const std::string none = name_ + ": there is no layer " + csgrun::quoted(*options_.layer);
       if (!options_.as_openscad) return invalid_argument(none);
@@ -377,7 +378,8 @@ Result<FlatFile> parse_dxf(const std::string& name, std::string_view bytes,
   if (!std::isfinite(options.scale) || options.scale == 0) {
     return invalid_argument("import: scale must be a number other than 0");
   }
-  const Result<DxfRecords> records = read_dxf_records(name, bytes);
+  const Result<DxfRecords> records = options.as_openscad ? read_dxf_records_as_openscad(name, bytes)
+                                                         : read_dxf_records(name, bytes);
   if (!records) return records.error();
   return DxfReader(name, options, *records).read();
 }

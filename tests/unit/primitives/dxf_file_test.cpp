@@ -11,39 +11,21 @@
 #include <csgrun/primitives/flat_file.h>
 
 #include "tests/unit/primitives/drawing_files.h"
+#include "tests/unit/primitives/dxf_text.h"
 
 namespace csgrun::dxf_file_test {
 namespace {
 
 using testing::arc_points;
 using testing::area_on_grid;
+using testing::dxf_line;
+using testing::entities;
 using testing::error;
 using testing::ngon;
 using testing::ngon_on_grid;
+using testing::pairs;
 using testing::read;
 using testing::with_fn;
-
-std::string pairs(const std::vector<std::pair<int, std::string>>& groups) {
-  std::string text;
-  for (const auto& [code, value] : groups)
-    text += "  " + std::to_string(code) + "\r\n" + value + "\r\n";
-  return text;
-}
-
-std::string entities(const std::string& content, const std::string& blocks = "") {
-  return pairs({{0, "SECTION"}, {2, "BLOCKS"}}) + blocks +
-         pairs({{0, "ENDSEC"}, {0, "SECTION"}, {2, "ENTITIES"}}) + content +
-         pairs({{0, "ENDSEC"}, {0, "EOF"}});
-}
-
-std::string dxf_line(double x0, double y0, double x1, double y1, const std::string& layer = "0") {
-  return pairs({{0, "LINE"},
-                {8, layer},
-                {10, std::to_string(x0)},
-                {20, std::to_string(y0)},
-                {11, std::to_string(x1)},
-                {21, std::to_string(y1)}});
-}
 
 Shape2D dxf(const std::string& content, const FlatFileOptions& options = with_fn(32)) {
   return read("x.dxf", entities(content), options).shape;
@@ -362,7 +344,7 @@ TEST(Dxf, HostileAndDamagedFiles) {
   const FlatFile unknown = read("x.dxf", entities(pairs({{0, "3DSOLID"}, {1, "x"}})), {});
   EXPECT_TRUE(unknown.shape.empty());
   EXPECT_EQ(unknown.notes, std::vector<std::string>{"x.dxf: 3DSOLID left out (1)"});
-  EXPECT_TRUE(read("x.dxf", "", {}).shape.empty());
+  EXPECT_EQ(error("x.dxf", "", {}), "x.dxf: the file is empty");
 }
 
 }  // namespace
