@@ -263,9 +263,21 @@ class DxfReader {
 
   void polyline(const DxfRecord& r, const std::vector<DxfRecord>& list, size_t first, size_t last,
                 const Placement& placement, bool in_block) {
+    constexpr int kMesh = 16, kPolyface = 64, kFrame = 16;
+    if ((flags(r) & (kMesh | kPolyface)) != 0) {
+      ++left_out_[(flags(r) & kMesh) != 0 ? "POLYLINE of a mesh" : "POLYLINE of a polyface mesh"];
+      return;
+    }
     std::vector<Vertex> vertices;
-    for (size_t i = first; i < last; ++i)
-      vertices.push_back({point(list[i], 10), list[i].number(42)});
+    for (size_t i = first; i < last; ++i) {
+      // The frame of a spline's control points is beside the points of the curve.
+      if ((flags(list[i]) & kFrame) == 0)
+        vertices.push_back({point(list[i], 10), list[i].number(42)});
+    }
+    if (vertices.empty() && last > first) {
+      ++left_out_["POLYLINE of control points only"];
+      return;
+    }
     const double scale =
         std::sqrt(std::fabs(placement.u.x * placement.v.y - placement.u.y * placement.v.x));
     Chain chain = bulged(vertices, is_closed(r), scale);

@@ -191,5 +191,62 @@ TEST(DxfDamage, TreesReadWhatOpenScadReads) {
               1e-9);
 }
 
+TEST(DxfDamage, SplineFitPolylines) {
+  // Sixteen points of a circle of radius 3, within the frame of their control points.
+  constexpr int kPoints = 16;
+  const auto vertex = [](double r, int i, const char* flags) {
+    const double angle = 2 * std::acos(-1.0) * i / kPoints;
+    return pairs({{0, "VERTEX"},
+                  {10, std::to_string(r * std::cos(angle))},
+                  {20, std::to_string(r * std::sin(angle))},
+                  {70, flags}});
+  };
+  std::string frame, curve, fitted;
+  for (int i = 0; i < kPoints; ++i) {
+    if (i % 4 == 0) frame += vertex(5, i, "16");
+    curve += vertex(3, i, "8");
+    fitted += vertex(3, i, i % 2 == 0 ? "0" : "1");  // every other one by the fit of arcs
+  }
+  const std::string end = pairs({{0, "SEQEND"}});
+  const auto area = [&](const char* flags, const std::string& vertices) {
+    const std::string start = pairs({{0, "POLYLINE"}, {70, flags}});
+    return read("x.dxf", entities(start + vertices + end), {}).shape.area();
+  };
+  EXPECT_NEAR(area("5", frame + curve), ngon_on_grid(kPoints, 3), 1e-3);
+  EXPECT_NEAR(area("5", frame + curve), 27.553, 1e-2);
+  EXPECT_NEAR(area("3", fitted), ngon_on_grid(kPoints, 3), 1e-3);
+  const FlatFile alone =
+      read("x.dxf", entities(pairs({{0, "POLYLINE"}, {70, "5"}}) + frame + end), {});
+  EXPECT_TRUE(alone.shape.empty());
+  EXPECT_EQ(alone.notes,
+            std::vector<std::string>{"x.dxf: POLYLINE of control points only left out (1)"});
+}
+
+TEST(DxfDamage, MeshesAreNoOutlines) {
+  const auto polyline = [](const char* flags) {
+    return pairs({{0, "POLYLINE"},
+                  {70, flags},
+                  {0, "VERTEX"},
+                  {10, "0"},
+                  {20, "0"},
+                  {0, "VERTEX"},
+                  {10, "4"},
+                  {20, "0"},
+                  {0, "VERTEX"},
+                  {10, "4"},
+                  {20, "4"},
+                  {0, "SEQEND"}});
+  };
+  for (const FlatFileOptions& options : {FlatFileOptions(), of_tree()}) {
+    const FlatFile file =
+        read("x.dxf", entities(polyline("1") + polyline("64") + polyline("17") + polyline("16")),
+             options);
+    EXPECT_NEAR(file.shape.area(), 8, 1e-9);
+    EXPECT_EQ(file.notes,
+              (std::vector<std::string>{"x.dxf: POLYLINE of a mesh left out (2)",
+                                        "x.dxf: POLYLINE of a polyface mesh left out (1)"}));
+  }
+}
+
 }  // namespace
 }  // namespace csgrun::dxf_damage_test
