@@ -114,6 +114,12 @@ class DxfReader {
       const bool wanted = !options_.layer || layer == *options_.layer;
       if (options_.parts) layer_ = layer;
       if (wanted) found_layer_ = true;
+      const char* hidden = hidden_as(r, depth);
+      if (hidden != nullptr) {
+        while (r.kind == "POLYLINE" && i + 1 < list.size() && list[i + 1].kind == "VERTEX") ++i;
+        if (wanted && shows_something(r)) ++left_out_[hidden];
+        continue;
+      }
       if (r.kind == "INSERT") {
         if (auto status = insert(r, placement, layer, depth); !status) return status;
         continue;
@@ -133,6 +139,19 @@ class DxfReader {
       }
     }
     return std::monostate();
+  }
+
+  static bool shows_something(const DxfRecord& r) {
+    return r.kind != "SEQEND" && r.kind != "POINT" && r.kind != "VIEWPORT";
+  }
+
+  /// A name for entities like this if the drawing does not show them: what is on a sheet of paper
+  /// is no part of the model. OpenSCAD knows no difference.
+  [[nodiscard]] const char* hidden_as(const DxfRecord& r, int depth) const {
+    if (options_.as_openscad) return nullptr;
+    if (r.number(60) != 0) return "invisible entities";
+    const bool in_block = depth > 0;  // which is where it is inserted
+    return !in_block && r.number(67) != 0 ? "entities in paper space" : nullptr;
   }
 
   Status insert(const DxfRecord& r, const Placement& outer, const std::string& layer, int depth) {
@@ -228,7 +247,7 @@ class DxfReader {
     } else if (kind == "SPLINE") {
       spline(r, scale, chain);
     } else {
-      if (kind != "SEQEND" && kind != "POINT" && kind != "VIEWPORT") ++left_out_[kind];
+      if (shows_something(r)) ++left_out_[kind];
       return;
     }
     add(std::move(chain), placement, in_block);

@@ -248,5 +248,38 @@ TEST(DxfDamage, MeshesAreNoOutlines) {
   }
 }
 
+TEST(DxfDamage, HiddenEntitiesAreLeftOut) {
+  const std::string old = pairs({{0, "POLYLINE"},
+                                 {60, "1"},
+                                 {70, "1"},
+                                 {0, "VERTEX"},
+                                 {10, "50"},
+                                 {0, "VERTEX"},
+                                 {10, "54"},
+                                 {0, "VERTEX"},
+                                 {10, "54"},
+                                 {20, "4"},
+                                 {0, "SEQEND"}});
+  const std::string block = pairs({{0, "BLOCK"}, {2, "B"}}) + pairs(square(100, {{67, "1"}})) +
+                            pairs(square(120, {{60, "1"}})) + pairs({{0, "ENDBLK"}});
+  const std::string content =
+      pairs(square(0)) + pairs(square(20, {{60, "1"}})) + pairs(square(40, {{67, "1"}})) +
+      pairs(square(60, {{60, "0"}, {67, "0"}})) + old +
+      pairs({{0, "VIEWPORT"}, {67, "1"}, {0, "INSERT"}, {2, "B"}, {67, "1"}, {10, "0"}, {20, "0"}});
+  const FlatFile file = read("x.dxf", entities(content, block), {});
+  EXPECT_NEAR(file.shape.area(), 200, 1e-9);
+  EXPECT_EQ(file.notes, (std::vector<std::string>{"x.dxf: entities in paper space left out (2)",
+                                                  "x.dxf: invisible entities left out (2)"}));
+  // In a block the space is that of its insertion.
+  const std::string insert = pairs({{0, "INSERT"}, {2, "B"}, {10, "0"}, {20, "0"}});
+  EXPECT_NEAR(read("x.dxf", entities(insert, block), {}).shape.area(), 100, 1e-9);
+  // OpenSCAD 2021.01 draws them all.
+  EXPECT_NEAR(
+      read("x.dxf", entities(pairs(square(20, {{60, "1"}})) + pairs(square(40, {{67, "1"}}))),
+           of_tree())
+          .shape.area(),
+      200, 1e-9);
+}
+
 }  // namespace
 }  // namespace csgrun::dxf_damage_test

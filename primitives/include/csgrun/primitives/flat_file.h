@@ -45,7 +45,9 @@ struct FlatFile {
 /// transforms, viewBox, sizes in units. What is filled or closed is area by its fill rule; open
 /// lines that are only stroked give the area of their stroke. A DXF as drawn: LINE, LWPOLYLINE and
 /// POLYLINE with bulges, CIRCLE, ARC, ELLIPSE, SPLINE, INSERT; ends that round to the same
-/// 1/1024 are joined, and the loops filled by the even-odd rule; what stays open is left out.
+/// 1/1024 are joined, and the loops filled by the even-odd rule; what stays open is closed by a
+/// straight line. What is invisible, in paper space or a mesh is left out. A DXF that is cut off
+/// or has values that are no numbers is an error, unless it is read as OpenSCAD does.
 ///
 /// Errors: kMalformedFile with line or byte, kLimit for files that unfold to too much (nested
 /// references, millions of points), kInvalidArgument for a layer or id that is not in the file.
