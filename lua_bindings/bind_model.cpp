@@ -56,7 +56,8 @@ constexpr Option kImportOptions[] = {
     {"center", T::kBoolean, "false", "the middle of its box becomes the origin", false},
     {"as_openscad", T::kBoolean, "false",
      "of a drawing: by OpenSCAD's rules of what is area and how many pieces curves have;\n"
-     "          a layer or an id that is not there is empty",
+     "          a layer or an id that is not there is empty, and what is damaged or hidden in a\n"
+     "          DXF is read as OpenSCAD does",
      false},
     kConvexityOption,
 };

@@ -3429,7 +3429,7 @@ csg.load_csg = load_csg
 ---@field origin? number[] of a DXF, whose points go to the nearest 1/1024: this one becomes the origin
 ---@field scale? number of a DXF: a factor
 ---@field center? boolean the middle of its box becomes the origin
----@field as_openscad? boolean of a drawing: by OpenSCAD's rules of what is area and how many pieces curves have; a layer or an id that is not there is empty
+---@field as_openscad? boolean of a drawing: by OpenSCAD's rules of what is area and how many pieces curves have; a layer or an id that is not there is empty, and what is damaged or hidden in a DXF is read as OpenSCAD does
 ---@field convexity? integer ignored: OpenSCAD needs it for its preview
 ---@field fn? number number of facets of a full turn; 0: from fa and fs
 ---@field segments? number the same as fn
