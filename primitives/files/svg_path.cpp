@@ -26,6 +26,7 @@ class Scanner {
   void skip_separators() {
     while (at_ < text_.size() && (is_blank(text_[at_]) || text_[at_] == ',')) ++at_;
   }
+  [[nodiscard]] size_t at() const { return at_; }
   [[nodiscard]] bool at_end() const { return at_ >= text_.size(); }
   [[nodiscard]] char peek() const { return at_end() ? '\0' : text_[at_]; }
   char take() { return text_[at_++]; }
@@ -77,12 +78,14 @@ class PathReader {
   PathReader(std::string_view data, const SvgSteps& steps) : scan_(data), steps_(steps) {}
 
   std::vector<Chain> chains;
+  size_t segment_begin = 0;  ///< of the last one
 
   bool read() {
     char command = '\0';
     for (;;) {
       scan_.skip_separators();
       if (scan_.at_end()) return true;
+      segment_begin = scan_.at();
       const char c = scan_.peek();
       const bool letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
       if (letter) {
@@ -250,6 +253,24 @@ SvgMap SvgMap::after(const SvgMap& inner) const {
 
 double SvgMap::scale() const { return std::sqrt(std::fabs(a * d - b * c)); }
 
+double SvgMap::largest_scale() const {
+  const double sum = a * a + b * b + c * c + d * d, det = a * d - b * c;
+  return std::sqrt((sum + std::sqrt(std::max(sum * sum - 4 * det * det, 0.0))) / 2);
+}
+
+double SvgMap::smallest_scale() const {
+  const double largest = largest_scale();
+  return largest > 0 ? std::fabs(a * d - b * c) / largest : 0;
+}
+
+bool SvgMap::is_flat() const { return !(smallest_scale() > 1e-12 * largest_scale()); }
+
+bool SvgMap::is_similarity() const {
+  const double noise = 1e-12 * largest_scale();
+  const auto same = [&](double p, double q) { return std::fabs(p - q) <= noise; };
+  return (same(a, d) && same(b, -c)) || (same(a, -d) && same(b, c));
+}
+
 std::optional<SvgMap> parse_svg_transform(std::string_view text) {
   SvgMap map;
   Scanner scan(text);
@@ -305,6 +326,20 @@ std::optional<std::vector<double>> parse_svg_numbers(std::string_view text) {
   }
 }
 
+std::vector<glm::dvec2> parse_svg_points(std::string_view text, size_t& mistake) {
+  std::vector<glm::dvec2> points;
+  Scanner scan(text);
+  for (;;) {
+    scan.skip_separators();
+    mistake = scan.at();
+    if (scan.at_end()) return points;
+    const auto x = scan.number();
+    const auto y = x ? scan.number() : std::nullopt;
+    if (!y) return points;
+    points.emplace_back(*x, *y);
+  }
+}
+
 std::optional<SvgLength> parse_svg_length(std::string_view text) {
   Scanner scan(text);
   SvgLength length;
@@ -317,9 +352,11 @@ std::optional<SvgLength> parse_svg_length(std::string_view text) {
   return length;
 }
 
-std::vector<Chain> parse_svg_path(std::string_view data, const SvgSteps& steps, bool& good) {
+std::vector<Chain> parse_svg_path(std::string_view data, const SvgSteps& steps, bool& good,
+                                  size_t* mistake) {
   PathReader reader(data, steps);
   good = reader.read();
+  if (mistake != nullptr) *mistake = reader.segment_begin;
   return std::move(reader.chains);
 }
 

@@ -23,6 +23,13 @@ struct SvgMap {
   [[nodiscard]] SvgMap after(const SvgMap& inner) const;
   /// How much it enlarges lengths, on average.
   [[nodiscard]] double scale() const;
+  /// The largest and the smallest factor of a length, in any direction.
+  [[nodiscard]] double largest_scale() const;
+  [[nodiscard]] double smallest_scale() const;
+  /// Whether it leaves nothing of areas, but for rounding.
+  [[nodiscard]] bool is_flat() const;
+  /// Whether it enlarges all directions alike, but for rounding.
+  [[nodiscard]] bool is_similarity() const;
 };
 
 /// Nothing when the text is no list of transforms.
@@ -30,6 +37,10 @@ std::optional<SvgMap> parse_svg_transform(std::string_view text);
 
 /// Numbers separated by blanks and commas; nothing when there is anything else.
 std::optional<std::vector<double>> parse_svg_numbers(std::string_view text);
+
+/// The points of a <polygon>. As SVG wants, what stands before a mistake is taken; `mistake` then
+/// is where it begins, and else the end of the text.
+std::vector<glm::dvec2> parse_svg_points(std::string_view text, size_t& mistake);
 
 /// A number with a unit ("mm", "%", "" ...).
 struct SvgLength {
@@ -39,7 +50,8 @@ struct SvgLength {
 std::optional<SvgLength> parse_svg_length(std::string_view text);
 
 /// The subpaths of path data, with curves in steps. As SVG wants, what stands before a mistake is
-/// drawn; `good` then is false.
-std::vector<Chain> parse_svg_path(std::string_view data, const SvgSteps& steps, bool& good);
+/// drawn; `good` then is false, and the segment with the mistake begins at `mistake`.
+std::vector<Chain> parse_svg_path(std::string_view data, const SvgSteps& steps, bool& good,
+                                  size_t* mistake = nullptr);
 
 }  // namespace csgrun

@@ -1,6 +1,9 @@
 #include "primitives/files/svg_style_sheet.h"
 
 #include <algorithm>
+#include <cstdint>
+#include <tuple>
+#include <utility>
 
 #include "primitives/files/svg_document.h"
 
@@ -9,20 +12,6 @@ namespace {
 
 constexpr std::string_view kBlanks = " \t\n\r\f";
 constexpr size_t kRankOfId = 1000000, kRankOfClass = 1000;
-
-std::string without_comments(std::string_view text) {
-  std::string plain;
-  for (size_t at = 0; at < text.size();) {
-    const size_t begin = std::min(text.find("/*", at), text.size());
-    plain += text.substr(at, begin - at);
-    if (begin == text.size()) break;
-    const size_t end = text.find("*/", begin + 2);
-    if (end == std::string_view::npos) break;
-    plain += ' ';
-    at = end + 2;
-  }
-  return plain;
-}
 
 bool is_name(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
@@ -90,7 +79,7 @@ bool SvgStyleSheet::matches(const Selector& selector, const pugi::xml_node& node
 }
 
 void SvgStyleSheet::add(std::string_view text, bool (*heeded)(std::string_view property)) {
-  const std::string plain = without_comments(text);
+  const std::string plain = css_without_comments(text);
   for (size_t at = 0; at < plain.size();) {
     const size_t open = plain.find_first_of(";{}", at);
     if (open == std::string::npos) break;
@@ -103,22 +92,18 @@ void SvgStyleSheet::add(std::string_view text, bool (*heeded)(std::string_view p
     at = end;
     const std::string body = plain.substr(open + 1, end - open - (plain[end - 1] == '}' ? 2 : 1));
     const size_t first = declarations_.size();
-    for (size_t begin = 0; begin < body.size();) {
-      const size_t stop = std::min(body.find_first_of(";{}", begin), body.size());
-      const size_t colon = body.find_first_of(":;{}", begin);
-      if (colon < stop && body[colon] == ':') {
-        const std::string property = trimmed(body.substr(begin, colon - begin));
-        std::string value = trimmed(body.substr(colon + 1, stop - colon - 1));
-        value = trimmed(value.substr(0, value.find("!important")));
-        if (heeded(property)) declarations_.push_back({property, value});
-      }
-      begin = stop + 1;
+    bool only_fonts = true;
+    for (CssDeclaration& next : css_declarations(body)) {
+      if (!heeded(next.property)) continue;
+      if (!next.property.starts_with("font")) only_fonts = false;
+      declarations_.push_back(std::move(next));
     }
     const size_t last = declarations_.size();
     if (first == last) continue;
+    const size_t counted = only_fonts ? 0 : 1;
     if (head.starts_with("@")) {  // for print, for screens of a size
       declarations_.resize(first);
-      ++unknown_;
+      unknown_ += counted;
       continue;
     }
     for (size_t begin = 0; begin <= head.size();) {
@@ -127,29 +112,61 @@ void SvgStyleSheet::add(std::string_view text, bool (*heeded)(std::string_view p
       if (parse_selector(trimmed(head.substr(begin, comma - begin)), selector)) {
         rules_.push_back({std::move(selector), first, last});
       } else {
-        ++unknown_;
+        unknown_ += counted;
       }
       begin = comma + 1;
     }
   }
 }
 
-std::string SvgStyleSheet::property(const pugi::xml_node& node, std::string_view name) const {
-  size_t rank = 0;
-  std::string value;
+void SvgStyleSheet::find(const pugi::xml_node& node, std::vector<Found>& found) const {
   const size_t length = std::string_view(node.attribute("class").value()).size();
   for (const Rule& rule : rules_) {
-    if (tried_ > kMostTrials) return {};
-    tried_ += 1 + rule.selector.classes.size() * (length / 64);
-    if (rule.selector.rank < rank || !matches(rule.selector, node)) continue;
-    tried_ += (rule.last - rule.first) / 8;
-    for (size_t i = rule.first; i < rule.last; ++i) {
-      if (declarations_[i].property != name) continue;
-      rank = rule.selector.rank;
-      value = declarations_[i].value;
+    if (is_exhausted()) {
+      found.clear();
+      return;
     }
+    tried_ += 1 + rule.selector.classes.size() * (length / 64);
+    if (!matches(rule.selector, node)) continue;
+    tried_ += rule.last - rule.first;
+    for (size_t i = rule.first; i < rule.last; ++i)
+      found.push_back({&declarations_[i], rule.selector.rank});
   }
-  return value;
+}
+
+SvgElementStyle::SvgElementStyle(const pugi::xml_node& node, const SvgStyleSheet& sheet)
+    : node_(node) {
+  constexpr size_t kRankOfStyle = SIZE_MAX;
+  std::vector<SvgStyleSheet::Found> all;
+  sheet.find(node, all);
+  if (const pugi::xml_attribute style = node.attribute("style")) {
+    own_ = css_declarations(css_without_comments(style.value()));
+    for (const CssDeclaration& declaration : own_) all.push_back({&declaration, kRankOfStyle});
+  }
+  // The one that counts of each property comes last, and is kept.
+  std::stable_sort(all.begin(), all.end(), [](const auto& a, const auto& b) {
+    const CssDeclaration &p = *a.declaration, &q = *b.declaration;
+    return std::tie(p.property, p.important, a.rank) < std::tie(q.property, q.important, b.rank);
+  });
+  for (const SvgStyleSheet::Found& next : all) {
+    if (!found_.empty() && found_.back().declaration->property == next.declaration->property)
+      found_.pop_back();
+    found_.push_back(next);
+  }
+}
+
+const std::string* SvgElementStyle::declared(std::string_view property) const {
+  const auto at = std::lower_bound(found_.begin(), found_.end(), property,
+                                   [](const SvgStyleSheet::Found& a, std::string_view b) {
+                                     return a.declaration->property < b;
+                                   });
+  if (at == found_.end() || at->declaration->property != property) return nullptr;
+  return &at->declaration->value;
+}
+
+std::string SvgElementStyle::property(const char* name) const {
+  if (const std::string* value = declared(name)) return css_lower(*value);
+  return css_lower(trimmed(node_.attribute(name).value()));
 }
 
 }  // namespace csgrun

@@ -1,4 +1,5 @@
-// The style sheets of an SVG: which properties their rules give to an element.
+// The style of an element of an SVG: what the rules of style sheets, its attribute `style` and its
+// other attributes say of a property.
 //
 // Programs that draw (Illustrator, Figma, CorelDRAW) write what is filled and what is stroked as
 // classes: `.cls-1 { fill: none }`. Selectors of one element are known: names, .classes, #ids,
@@ -13,6 +14,8 @@
 
 #include <pugixml.hpp>
 
+#include "primitives/files/svg_css.h"
+
 namespace csgrun {
 
 class SvgStyleSheet {
@@ -21,15 +24,19 @@ class SvgStyleSheet {
   /// rules that have none of these are passed over. Cost: linear in the text.
   void add(std::string_view text, bool (*heeded)(std::string_view property));
 
-  /// What the rules say of a property of this element; of several the most specific counts, of
-  /// equal ones the last. Empty where none does.
-  [[nodiscard]] std::string property(const pugi::xml_node& node, std::string_view name) const;
+  struct Found {
+    const CssDeclaration* declaration;  ///< lives as long as the sheet, until add()
+    size_t rank;                        ///< of its selector: what is more specific ranks higher
+  };
+  /// Appends the declarations of all rules for this element, in their order.
+  void find(const pugi::xml_node& node, std::vector<Found>& found) const;
 
-  /// How many rules with heeded properties were passed over, because of their selectors.
+  /// How many rules with heeded properties were passed over, because of their selectors. Those that
+  /// have fonts only are not counted: what they change is areas of text.
   [[nodiscard]] size_t unknown_rules() const { return unknown_; }
 
-  /// Whether more selectors were held against elements than a drawing can want; the answers of
-  /// property() are empty from then on.
+  /// Whether more selectors were held against elements than a drawing can want; find() finds
+  /// nothing from then on.
   [[nodiscard]] bool is_exhausted() const { return tried_ > kMostTrials; }
 
  private:
@@ -38,9 +45,6 @@ class SvgStyleSheet {
     std::string id;
     std::vector<std::string> classes;
     size_t rank = 0;  ///< ids count most, then classes, then names
-  };
-  struct Declaration {
-    std::string property, value;
   };
   struct Rule {
     Selector selector;
@@ -51,11 +55,30 @@ class SvgStyleSheet {
   static bool matches(const Selector& selector, const pugi::xml_node& node);
 
   std::vector<Rule> rules_;
-  std::vector<Declaration> declarations_;
+  std::vector<CssDeclaration> declarations_;
   size_t unknown_ = 0;
   mutable size_t tried_ = 0;
 
   static constexpr size_t kMostTrials = 20'000'000;
+};
+
+/// The cascade of one element: attributes, over them the rules of style sheets by their rank, over
+/// these the attribute `style`; what is `!important` over all that is not. The sheet and the
+/// element must outlive it.
+class SvgElementStyle {
+ public:
+  SvgElementStyle(const pugi::xml_node& node, const SvgStyleSheet& sheet);
+
+  /// What rules and the attribute `style` say, as it is written; null where they do not.
+  [[nodiscard]] const std::string* declared(std::string_view property) const;
+
+  /// That, or what the attribute of this name says, in small letters. Empty where nothing does.
+  [[nodiscard]] std::string property(const char* name) const;
+
+ private:
+  pugi::xml_node node_;
+  std::vector<CssDeclaration> own_;
+  std::vector<SvgStyleSheet::Found> found_;  ///< the one that counts of each property
 };
 
 }  // namespace csgrun

@@ -248,12 +248,13 @@ TEST(Svg, WhatIsNotHeededIsSaid) {
   using Notes = std::vector<std::string>;
   EXPECT_EQ(notes("<g clip-path='url(#c)'><rect width='1' height='1' mask='url(#m)'/></g>"
                   "<g style='clip-path: url(#c)'/><g clip-path='none'/>"),
-            (Notes{"x.svg: clip-path left out (2)", "x.svg: mask left out (1)"}));
+            (Notes{"x.svg: clip-path left out (2, first in line 1)",
+                   "x.svg: mask left out (1, in line 1)"}));
   EXPECT_EQ(notes("<defs><style>g .a { display : none }</style></defs>"),
-            Notes{"x.svg: rules of a <style> left out (1)"});
+            Notes{"x.svg: rules of a <style> left out (1, in line 1)"});
   EXPECT_EQ(notes("<style><![CDATA[a:hover{fill-rule:evenodd}]]></style>"
                   "<style>@media print { .a { fill: none } }</style>"),
-            Notes{"x.svg: rules of a <style> left out (2)"});
+            Notes{"x.svg: rules of a <style> left out (2, first in line 1)"});
   EXPECT_EQ(notes("<style>.a { font-size: 3px } @media print { .a { color: red } }</style><style/>"
                   "<style>@import url(x.css); @font-face { src: url(fill:x) }</style>"),
             Notes{});
@@ -343,8 +344,8 @@ TEST(Svg, WhatIsNotPaintedIsNoArea) {
       "13h-6v6h-2v-6H5v-2h6V5h2v6h6v2z'/>";
   const FlatFile file = read("i.svg", page(icon), with_fn(32));
   EXPECT_NEAR(file.shape.area(), 2 * 28 - 4, 1e-9);
-  EXPECT_EQ(file.notes,
-            std::vector<std::string>{"i.svg: an element without fill and stroke left out (1)"});
+  EXPECT_EQ(file.notes, std::vector<std::string>{
+                            "i.svg: an element without fill and stroke left out (1, in line 1)"});
   const std::string clear = "<rect id='r' class='a' width='3' height='3'/>";
   EXPECT_TRUE(svg("<style>.a{fill:none}</style>" + clear).empty());
   EXPECT_TRUE(svg("<g fill='none'>" + clear + "</g>").empty());
@@ -435,8 +436,9 @@ TEST(Svg, HostileAndDamagedFiles) {
   const FlatFile partly = read("x.svg", page("<text>a</text><path d='M0 0h9v9zL5'/>"), {});
   EXPECT_NEAR(partly.shape.area(), 40.5, 1e-9);
   EXPECT_EQ(partly.notes,
-            (std::vector<std::string>{"x.svg: <text> left out (1)",
-                                      "x.svg: the rest of a damaged <path> left out (1)"}));
+            (std::vector<std::string>{
+                "x.svg: <text> left out (1, in line 1)",
+                "x.svg: the rest of a damaged <path> left out (1, in line 1: from \"L5\" on)"}));
 }
 
 }  // namespace
