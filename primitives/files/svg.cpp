@@ -66,8 +66,8 @@ class SvgReader {
     style.units = page->units;
     style.read(root, own, notes_);
     // On the root it turns the page in the window.
-    if (own.declared("transform") != nullptr || root.attribute("transform"))
-      notes_.leave_out(root, "a transform of the page");
+    const std::string turned = own.property("transform");
+    if (!turned.empty() && turned != "none") notes_.leave_out(root, "a transform of the page");
     const bool all = !options_.id && !options_.layer;
     for (const pugi::xml_node& child : root.children()) {
       if (child.type() != pugi::node_element) continue;

@@ -19,11 +19,16 @@ std::string handed_down(const SvgElementStyle& own, const char* name, const char
   return value;
 }
 
-/// Nothing where a part is no length, or negative.
+/// More than that are a mistake, or meant ill: every element takes the list over.
+constexpr size_t kMostDashes = 1000;
+
+/// Nothing where a part is no length, or negative, and for too many.
 std::optional<std::vector<double>> dashes_of(const std::string& list, const SvgUnits& units) {
   std::vector<double> dashes;
   double sum = 0;
-  for (const std::string& word : css_words(list)) {
+  const std::vector<std::string> words = css_words(list);
+  if (words.size() > kMostDashes) return std::nullopt;
+  for (const std::string& word : words) {
     const auto length = units.length(word, units.diagonal());
     if (!length || *length < 0) return std::nullopt;
     dashes.push_back(*length);
@@ -119,7 +124,8 @@ void SvgStyle::read(const pugi::xml_node& node, const SvgElementStyle& own, SvgN
     if (list) {
       dashes = *list;
     } else {
-      refuse("stroke-dasharray", text, "expected lengths that are not negative");
+      refuse("stroke-dasharray", text,
+             "expected up to " + std::to_string(kMostDashes) + " lengths that are not negative");
     }
   }
   if (const std::string text = handed_down(own, "stroke-dashoffset", "0"); !text.empty()) {

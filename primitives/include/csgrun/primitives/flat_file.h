@@ -42,8 +42,9 @@ struct FlatFile {
 };
 
 /// An SVG in mm, its page's lower left corner in the origin: paths, basic shapes, groups, use,
-/// transforms, viewBox, sizes in units. What is filled or closed is area by its fill rule; open
-/// lines that are only stroked give the area of their stroke. A DXF as drawn: LINE, LWPOLYLINE and
+/// switch, transforms (of CSS, too), viewBox, sizes in units. What is filled or closed is area by
+/// its fill rule; open lines that are only stroked give the area of their stroke, in dashes where
+/// they have them. What is not read, or cannot be, is noted with its line. A DXF as drawn: LINE, LWPOLYLINE and
 /// POLYLINE with bulges, CIRCLE, ARC, ELLIPSE, SPLINE, INSERT; ends that round to the same
 /// 1/1024 are joined, and the loops filled by the even-odd rule; what stays open is closed by a
 /// straight line. What is invisible, in paper space or a mesh is left out. A DXF that is cut off
