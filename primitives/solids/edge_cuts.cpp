@@ -70,6 +70,7 @@ class Cutter {
   /// corners end at the middle, and the cylinder.
   struct Bodies {
     std::array<NodePtr, 2> prism;
+    std::array<double, 2> half{};  ///< where they end between balls, from the start of the edge
     NodePtr round;
     std::array<std::vector<NodePtr>, 2> walls;  ///< where a prism goes too far, at its ends
   };
@@ -215,6 +216,7 @@ class Cutter {
       low.at.fill(middle - f.reach);
       high.at.fill(middle + f.reach);
       made.prism = {prism_between(f, ends[0], high), prism_between(f, low, ends[1])};
+      made.half = {middle + f.reach, middle - f.reach};
     }
     if (is_fillet()) made.round = round_body(f, ends, corners);
     return std::nullopt;
@@ -440,13 +442,12 @@ class Cutter {
                        reach / glm::dot(outwards, line.normals[0]) * outwards);
       const int end = ends_.end_at(f, corner.vertex);
       prisms.push_back(bodies_[k].prism[end]);
-      // Where nothing is between two balls, a half reaches a little into the other one.
+      if (bodies_[k].round) kept.push_back(bodies_[k].round);
+      // Where little or nothing is between two balls, a half reaches into the other one.
       const EdgeCorner* far = ends_.corner_at(f, 1 - end);
-      if (bodies_[k].round) {
-        kept.push_back(bodies_[k].round);
-      } else if (far != nullptr) {
-        kept.push_back(ball_at(*far));
-      }
+      if (far == nullptr) continue;
+      const double beyond = bodies_[k].half[end] - glm::dot(far->centre - f.start, f.along);
+      if (!bodies_[k].round || (end == 0 ? beyond : -beyond) > 0) kept.push_back(ball_at(*far));
     }
     prisms.push_back(hull_along(std::move(around), first));
     cuts_.push_back(

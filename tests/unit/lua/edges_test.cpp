@@ -143,6 +143,18 @@ TEST(EdgeCuts, AreTheSameFarFromTheOrigin) {
     end)");
 }
 
+// Where two balls leave less between them than the halves of an edge's prism reach into one another.
+TEST(EdgeCuts, AreTheRoundedBoxUpToHalfOfASide) {
+  expect_good(R"(
+    for _, r in ipairs{4, 4.99, 4.995, 4.999, 4.9999, 5} do
+      for _, size in ipairs{{10, 20, 30}, {10, 10, 10}} do
+        local cut = cube(size):fillet(r, {fn = 16})
+        local rounded = cube{size[1], size[2], size[3], r = r, fn = 16}
+        assert((rounded - cut):volume() == 0 and (cut - rounded):volume() == 0, r)
+      end
+    end)");
+}
+
 TEST(EdgeCuts, HaveNoMorePointsThanASolidMay) {
   EXPECT_EQ(message_of("cube(10):fillet(1, {fn = 20000})"),
             "model.lua:1: fillet: 20000 fragments make 200120000 points, the limit is 16777216");
