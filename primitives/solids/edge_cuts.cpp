@@ -531,7 +531,7 @@ std::optional<Error> check(EdgeFrames& frames, double size, bool is_radius) {
       f.length < size ? fmt::format(", which is {:.4g} long", f.length) : std::string();
   return invalid_argument(fmt::format("{} is too much for {}{}: {:.4g} fits", number_text(size),
                                       edge_text(frames.graph().edges()[f.edge].line), how_short,
-                                      frames.size_that_fits(*narrow, size, is_radius)));
+                                      frames.size_that_fits(size, is_radius)));
 }
 
 Result<NodePtr> cut_edges(const char* name, const EdgeCut& cut, double size, double radius,

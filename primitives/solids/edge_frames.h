@@ -75,8 +75,9 @@ class EdgeFrames {
 
   /// The first chosen edge whose cut leaves one of its sides or meets another cut on it.
   [[nodiscard]] std::optional<uint32_t> first_without_room() const;
-  /// For such an edge, a size below `size` that fits, rounded down to something short. Sets sizes.
-  double size_that_fits(uint32_t frame, double size, bool is_radius);
+  /// Where there is such an edge, a size below `size` at which there is none, rounded down to
+  /// something short. Sets sizes. O(n log n), some twenty times.
+  double size_that_fits(double size, bool is_radius);
 
  private:
   /// What the next edge does in the plane of the side: along the edge, away from it at the end (x),
@@ -112,7 +113,6 @@ class EdgeFrames {
 
   /// The corners of a strip in space.
   [[nodiscard]] std::vector<glm::dvec3> strip_in_space(const EdgeFrame& f, int side) const;
-  [[nodiscard]] bool has_room(const EdgeFrame& f) const;
   /// Whether a strip is too short for its mitres.
   [[nodiscard]] bool is_turned_over(const EdgeFrame& f, int side) const {
     return is_turned_over_[number_[f.edge]][static_cast<size_t>(side)];

@@ -255,16 +255,6 @@ bool EdgeFrames::has_room_at_ends(const EdgeFrame& f, int side) const {
   return true;
 }
 
-bool EdgeFrames::has_room(const EdgeFrame& f) const {
-  for (int side = 0; side < 2; ++side) {
-    if (!has_room_at_ends(f, side)) return false;
-    for (const uint32_t e : graph_.edges_of(graph_.edges()[f.edge].side[side])) {
-      if (e != f.edge && !has_room_beside(f, side, e)) return false;
-    }
-  }
-  return true;
-}
-
 std::optional<uint32_t> EdgeFrames::first_without_room() const {
   // Around each edge its strips, if it has any: what is not near to another has room beside it.
   std::vector<Box3> boxes(graph_.edges().size());
@@ -293,7 +283,12 @@ std::optional<uint32_t> EdgeFrames::first_without_room() const {
   return std::nullopt;
 }
 
-double EdgeFrames::size_that_fits(uint32_t frame, double size, bool is_radius) {
+double EdgeFrames::size_that_fits(double size, bool is_radius) {
+  const auto fits_all = [&](double s) {
+    set_size(s, is_radius);
+    return !first_without_room();
+  };
+
   // Nothing that is larger than the solid fits, and sizes far beyond it would leave the search no
   // digits to find the answer in.
   Box3 box;
@@ -302,17 +297,19 @@ double EdgeFrames::size_that_fits(uint32_t frame, double size, bool is_radius) {
     box.add(edge.line.to);
   }
   const glm::dvec3 extent = box.high - box.low;
+  constexpr int kHalvings = 24;  // the answer has four digits
   double fits = 0, fails = std::min(size, std::max({extent.x, extent.y, extent.z}));
-  for (int i = 0; i < 50; ++i) {
+  for (int i = 0; i < kHalvings; ++i) {
     const double middle = (fits + fails) / 2;
-    set_size(middle, is_radius);
-    (has_room(frames_[frame]) ? fits : fails) = middle;
+    (fits_all(middle) ? fits : fails) = middle;
   }
   // Rounded down to something short that fits.
   const double unit = std::pow(10, std::floor(std::log10(fails)) - 3);
   const double shown = std::floor(fits / unit * (1 + 1e-6)) * unit;
-  set_size(shown, is_radius);
-  return has_room(frames_[frame]) ? shown : fits;
+  for (const double s : {shown, shown - unit}) {
+    if (s > 0 && fits_all(s)) return s;
+  }
+  return fits;
 }
 
 }  // namespace csgrun

@@ -143,7 +143,8 @@ TEST(EdgeCuts, AreTheSameFarFromTheOrigin) {
     end)");
 }
 
-// Where two balls leave less between them than the halves of an edge's prism reach into one another.
+// Where two balls leave less between them than the halves of an edge's prism reach into one
+// another.
 TEST(EdgeCuts, AreTheRoundedBoxUpToHalfOfASide) {
   expect_good(R"(
     for _, r in ipairs{4, 4.99, 4.995, 4.999, 4.9999, 5} do
@@ -153,6 +154,17 @@ TEST(EdgeCuts, AreTheRoundedBoxUpToHalfOfASide) {
         assert((rounded - cut):volume() == 0 and (cut - rounded):volume() == 0, r)
       end
     end)");
+}
+
+// Not the size that fits the edge that is named: another one may have less room.
+TEST(EdgeCuts, SayWhatFitsAllOfThem) {
+  const std::string part =
+      "local l = polygon{{0, 0}, {20, 0}, {20, 6}, {8, 6}, {8, 14}, {0, 14}}:linear_extrude(8)\n";
+  for (const char* size : {"3.1", "4.0001", "50"}) {
+    const std::string said = message_of(part + "return l:chamfer(" + size + ", {edges = 'top'})");
+    EXPECT_EQ(said.substr(said.rfind(':')), ": 3 fits") << said;
+  }
+  expect_good(part + "assert(math.abs(l:chamfer(3, {edges = 'top'}):volume() - 1202) < 1e-6)");
 }
 
 TEST(EdgeCuts, HaveNoMorePointsThanASolidMay) {
