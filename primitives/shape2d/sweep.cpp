@@ -4,6 +4,7 @@
 // the least rotation from one direction to the next and to reflect it at that plane (and turn it
 // back over) is the same, so what arrives along one piece leaves along the next: walls are prisms.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -44,25 +45,73 @@ LinearExtrudeOptions twisted_extrusion(const SweepOptions& o) {
 /// Whether walls over straight edges are bent, by more than the path.
 bool bends_walls(const SweepOptions& o) { return o.twist != 0 || o.scale.x != o.scale.y; }
 
+double farthest_from_path(const Shape2D& shape) {
+  double square = 0;
+  for (const Shape2D::Loop& loop : shape.loops()) {
+    for (const glm::dvec2& p : loop) square = std::max(square, glm::dot(p, p));
+  }
+  return std::sqrt(square);
+}
+
+/// How a ring leans: so much of the way to the plane that halves the angle of a bend near it.
+struct Lean {
+  glm::dvec3 half{0};  ///< across that plane
+  double part = 0;
+};
+
+struct Way {
+  std::vector<glm::dvec3> points;
+  std::vector<Lean> leans;  ///< of each point; none for a path as it is given
+};
+
 /// The path with more points, so that what bends walls does so in steps as small as
-/// linear_extrude's.
-std::vector<glm::dvec3> divided(const std::vector<glm::dvec3>& path, const Shape2D& shape,
-                                const SweepOptions& o) {
+/// linear_extrude's. The ring at a bend lies aslant, and rings near it would cross it: they lean
+/// the more the nearer they are, from twice as far on as it reaches along the piece. So what is
+/// ahead of a point at one is ahead of it at all. Without room for that there are none.
+Way divided(const std::vector<glm::dvec3>& path, const Shape2D& shape, const SweepOptions& o) {
+  constexpr double kReaches = 2, kLeastReaches = 1.25;
   const size_t n = path.size(), pieces = o.closed ? n : n - 1;
   double total = 0;
   for (size_t i = 0; i < pieces; ++i) total += length_of(path[(i + 1) % n] - path[i]);
   const double slices = slices_of(shape, twisted_extrusion(o), total);
-  std::vector<glm::dvec3> result;
+  const double farthest = farthest_from_path(shape) * std::max({1.0, o.scale.x, o.scale.y});
+  const auto half_at = [&](size_t i) {
+    if (!o.closed && (i == 0 || i + 1 == n)) return glm::dvec3(0);
+    return direction_of(path, (i + n - 1) % n) + direction_of(path, i);
+  };
+  Way result;
   for (size_t i = 0; i < pieces; ++i) {
-    const glm::dvec3 a = path[i], way = path[(i + 1) % n] - a;
+    const size_t next = (i + 1) % n;
+    const glm::dvec3 a = path[i], way = path[next] - a;
+    const double length = length_of(way);
     // A turn of whole steps must not get one more by rounding.
     constexpr double kNoise = 1e-9;
-    const double steps = slices * length_of(way) / total;
+    const double steps = slices * length / total;
     const double parts = std::clamp(std::ceil(steps - kNoise), 1.0, kMostPoints);
-    for (double k = 0; k < parts && static_cast<double>(result.size()) <= kMostPoints; ++k)
-      result.push_back(a + way * (k / parts));
+    // Of both ends: how far the ring there reaches along this piece, and what leans towards it.
+    const std::array<glm::dvec3, 2> half{half_at(i), half_at(next)};
+    std::array<double, 2> reach{0, 0};
+    for (int end = 0; end < 2; ++end) {
+      const double along = std::fabs(glm::dot(half[end], way)) / length;
+      if (along > 0) reach[end] = farthest * length_of(glm::cross(half[end], way)) / length / along;
+    }
+    const double reaches = std::min(kReaches, length / (reach[0] + reach[1]));
+    result.points.push_back(a);
+    result.leans.emplace_back();
+    if (reaches < kLeastReaches) continue;
+    for (double k = 1; k < parts && static_cast<double>(result.points.size()) <= kMostPoints; ++k) {
+      result.points.push_back(a + way * (k / parts));
+      Lean& lean = result.leans.emplace_back();
+      for (int end = 0; end < 2; ++end) {
+        const double far = length * (end == 0 ? k : parts - k) / parts;
+        if (far < reaches * reach[end]) lean = {half[end], 1 - far / (reaches * reach[end])};
+      }
+    }
   }
-  if (!o.closed) result.push_back(path.back());
+  if (!o.closed) {
+    result.points.push_back(path.back());
+    result.leans.emplace_back();
+  }
   return result;
 }
 
@@ -120,9 +169,10 @@ class Sweeper {
   /// `loops` are those of the shape, perhaps with more points on edges. `rolls`: what each frame
   /// is to be turned by, in degrees, to stand upright.
   Sweeper(const Shape2D& shape, std::vector<Shape2D::Loop> loops, const SweepOptions& options,
-          std::vector<glm::dvec3> path, std::vector<Frame> frames, std::vector<double> rolls)
+          Way way, std::vector<Frame> frames, std::vector<double> rolls)
       : options_(options),
-        path_(std::move(path)),
+        path_(std::move(way.points)),
+        leans_(std::move(way.leans)),
         frames_(std::move(frames)),
         rolls_(std::move(rolls)),
         loops_(std::move(loops)),
@@ -183,6 +233,7 @@ class Sweeper {
     // closed path is seen from the piece after it, from which the frames were carried on.
     const Frame& frame = i == 0 ? after : before;
     const glm::dvec3 half = before.forward + after.forward;
+    const Lean lean = leans_.empty() ? Lean() : leans_[i];
     const double part = along_[i] / along_.back();
     double angle = (options_.twist + (options_.upright ? 0 : correction_)) * part;
     if (options_.upright) {
@@ -201,7 +252,9 @@ class Sweeper {
     for (const glm::dvec2& p : profile_.points) {
       const glm::dvec2 q = p * scale;
       const glm::dvec3 across = frame.x * (c * q.x - s * q.y) + frame.y * (s * q.x + c * q.y);
-      const double back = glm::dot(across, half) / glm::dot(frame.forward, half);
+      double back = glm::dot(across, half) / glm::dot(frame.forward, half);
+      if (lean.part > 0)
+        back += lean.part * glm::dot(across, lean.half) / glm::dot(frame.forward, lean.half);
       ring.push_back(static_cast<uint32_t>(mesh_.points.size()));
       mesh_.points.push_back(path_[i] + across - frame.forward * back);
     }
@@ -239,6 +292,7 @@ class Sweeper {
 
   const SweepOptions& options_;
   std::vector<glm::dvec3> path_;
+  std::vector<Lean> leans_;    // of the rings; none: all zero
   std::vector<Frame> frames_;  // of each piece
   std::vector<double> rolls_;  // likewise
   const std::vector<Shape2D::Loop> loops_;
@@ -305,7 +359,8 @@ MeshResult sweep_shape(const Shape2D& shape, const SweepOptions& options) {
                             " different points, got " + std::to_string(path.size()));
   }
   if (auto error = check_turns(path, options.closed)) return *error;
-  if (bends_walls(options)) path = divided(path, shape, options);
+  Way way = bends_walls(options) ? divided(path, shape, options) : Way{path, {}};
+  path = way.points;
   const size_t pieces = options.closed ? path.size() : path.size() - 1;
   const double rings = static_cast<double>(path.size());
   if (rings > kMostPoints) return too_many_points(kSweep, rings, rings);
@@ -331,7 +386,7 @@ MeshResult sweep_shape(const Shape2D& shape, const SweepOptions& options) {
     frames.push_back(i == 0 ? *upright : carried(frames.back(), forward));
     if (options.upright) rolls.push_back(angle_between(frames.back(), *upright));
   }
-  return Sweeper(shape, std::move(loops), options, std::move(path), std::move(frames),
+  return Sweeper(shape, std::move(loops), options, std::move(way), std::move(frames),
                  std::move(rolls))
       .build();
 }

@@ -4,6 +4,7 @@
 #include <glm/geometric.hpp>
 #include <gtest/gtest.h>
 
+#include <csgrun/engine/evaluate.h>
 #include <csgrun/primitives/sweep.h>
 #include <csgrun/primitives/trig.h>
 
@@ -317,6 +318,27 @@ TEST(Loft, MayBeginAndEndInPoints) {
             "loft: only the first or the last outline may be a point, not number 2");
   EXPECT_EQ(error(loft_shapes({square, point(std::nan(""), 0)}, {0, 6})),
             "loft: a point must be finite, got nan");
+}
+
+// Rings across a piece would cross the one that lies aslant at its end.
+TEST(Sweep, ATwistAroundABendLeavesNoCrumbs) {
+  SweepOptions twisted;
+  for (const double fn : {30, 90, 200}) {
+    for (const double twist : {360, -720}) {
+      twisted.twist = twist;
+      twisted.facets = {fn, 12, 2};
+      for (const Shape2D& shape : {disc(2, 24), outlines({box(-2, -1, 2, 1).loops()[0]})}) {
+        const PolygonMesh mesh = swept(shape, {{0, 0, 0}, {0, 0, 20}, {20, 0, 20}}, twisted);
+        EXPECT_NEAR(volume(mesh), 40 * shape.area(), 0.004 * 40 * shape.area());
+        Evaluator evaluator{EvaluateOptions{}};
+        const auto solid =
+            evaluator.evaluate(Node::leaf(std::make_shared<PolygonMesh>(mesh), SourceRef{}));
+        ASSERT_TRUE(solid);
+        EXPECT_EQ((*solid)->measures.components, 1) << fn << ' ' << twist;
+        EXPECT_TRUE(evaluator.warnings().empty()) << evaluator.warnings()[0];
+      }
+    }
+  }
 }
 
 TEST(Loft, BadInputIsAnError) {

@@ -26,7 +26,8 @@ struct SweepOptions {
   /// rotation alone leans the outline ever more.
   bool upright = false;
   /// With a twist or two scales, the path and long edges of the outline are divided as finely as
-  /// linear_extrude divides its height and its outline.
+  /// linear_extrude divides its height and its outline; the path not between bends that are nearer
+  /// to one another than the outline is wide.
   Facets facets = {};
 };
 
