@@ -28,6 +28,12 @@ double area_on_grid(std::vector<glm::dvec2> points, double scale) {
 
 double ngon_on_grid(int n, double r) { return area_on_grid(arc_points(n, 0, n - 1), r); }
 
+std::string page(const std::string& content) {
+  return "<svg xmlns='http://www.w3.org/2000/svg' width='100mm' height='100mm' "
+         "viewBox='0 0 100 100'>" +
+         content + "</svg>";
+}
+
 FlatFileOptions with_fn(double fn) {
   FlatFileOptions options;
   options.facets.fn = fn;

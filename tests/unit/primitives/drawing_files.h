@@ -22,6 +22,9 @@ double ngon_on_grid(int n, double r);
 
 FlatFileOptions with_fn(double fn);
 
+/// An SVG of 100 by 100 mm where a user unit is one millimetre.
+std::string page(const std::string& content);
+
 FlatFile read(const std::string& name, const std::string& text, const FlatFileOptions& options);
 
 std::string error(const std::string& name, const std::string& text,

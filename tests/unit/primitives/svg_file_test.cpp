@@ -18,15 +18,9 @@ namespace {
 using testing::error;
 using testing::kPi;
 using testing::ngon;
+using testing::page;
 using testing::read;
 using testing::with_fn;
-
-/// A page of 100 mm where a user unit is one millimetre.
-std::string page(const std::string& content) {
-  return "<svg xmlns='http://www.w3.org/2000/svg' width='100mm' height='100mm' "
-         "viewBox='0 0 100 100'>" +
-         content + "</svg>";
-}
 
 Shape2D svg(const std::string& content, const FlatFileOptions& options = with_fn(32)) {
   return read("x.svg", page(content), options).shape;

@@ -17,16 +17,10 @@ namespace {
 
 using testing::error;
 using testing::ngon;
+using testing::page;
 using testing::read;
 using testing::with_fn;
 using Notes = std::vector<std::string>;
-
-/// A page of 100 mm where a user unit is one millimetre.
-std::string page(const std::string& content) {
-  return "<svg xmlns='http://www.w3.org/2000/svg' width='100mm' height='100mm' "
-         "viewBox='0 0 100 100'>" +
-         content + "</svg>";
-}
 
 FlatFile svg(const std::string& content) { return read("x.svg", page(content), with_fn(32)); }
 double area(const std::string& content) { return svg(content).shape.area(); }

@@ -44,11 +44,11 @@ struct FlatFile {
 /// An SVG in mm, its page's lower left corner in the origin: paths, basic shapes, groups, use,
 /// switch, transforms (of CSS, too), viewBox, sizes in units. What is filled or closed is area by
 /// its fill rule; open lines that are only stroked give the area of their stroke, in dashes where
-/// they have them. What is not read, or cannot be, is noted with its line. A DXF as drawn: LINE, LWPOLYLINE and
-/// POLYLINE with bulges, CIRCLE, ARC, ELLIPSE, SPLINE, INSERT; ends that round to the same
-/// 1/1024 are joined, and the loops filled by the even-odd rule; what stays open is closed by a
-/// straight line. What is invisible, in paper space or a mesh is left out. A DXF that is cut off
-/// or has values that are no numbers is an error, unless it is read as OpenSCAD does.
+/// they have them. What is not read, or cannot be, is noted with its line. A DXF as drawn: LINE,
+/// LWPOLYLINE and POLYLINE with bulges, CIRCLE, ARC, ELLIPSE, SPLINE, INSERT; ends that round to
+/// the same 1/1024 are joined, and the loops filled by the even-odd rule; what stays open is closed
+/// by a straight line. What is invisible, in paper space or a mesh is left out. A DXF that is cut
+/// off or has values that are no numbers is an error, unless it is read as OpenSCAD does.
 ///
 /// Errors: kMalformedFile with line or byte, kLimit for files that unfold to too much (nested
 /// references, millions of points), kInvalidArgument for a layer or id that is not in the file.
