@@ -50,8 +50,14 @@ tinygltf::Material material_of(const Appearance& appearance, const std::string& 
 }
 
 /// Whether glTF may have it as a node's transform: rotation, reflection and scale along the axes
-/// before it, no shear. Others are applied to the vertices.
+/// before it, no shear. Others are applied to the vertices, which tells of places beyond the
+/// numbers of the file.
 bool is_node_transform(const Affine& map) {
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 4; ++j) {
+      if (!(std::fabs(map.m[i][j]) <= std::numeric_limits<float>::max())) return false;
+    }
+  }
   glm::dvec3 column[3];
   for (int c = 0; c < 3; ++c) column[c] = {map.m[0][c], map.m[1][c], map.m[2][c]};
   for (int c = 0; c < 3; ++c) {

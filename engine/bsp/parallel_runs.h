@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <cstddef>
+#include <thread>
 
 #include "engine/base/parallel.h"
 #include "engine/base/per_thread.h"
@@ -17,7 +18,8 @@ constexpr size_t kCellsPerRun = 64;
 constexpr size_t run_count(size_t cells) { return (cells + kCellsPerRun - 1) / kCellsPerRun; }
 
 /// Calls `work(solver, run)` for each run, in any order, with solvers made by `make`, one a thread.
-/// Runs that have not begun when the evaluation is cancelled are left out.
+/// Runs that have not begun when the evaluation is cancelled are left out. Progress is told by the
+/// calling thread.
 template <class Make, class Work>
 void for_each_run(size_t runs, const KernelOptions& options, Make&& make, Work&& work) {
   const auto cancelled = [&] {
@@ -32,12 +34,18 @@ void for_each_run(size_t runs, const KernelOptions& options, Make&& make, Work&&
     }
     return;
   }
+  const auto caller = std::this_thread::get_id();
+  std::atomic<size_t> done = 0;
   with_threads(options.threads, [&] {
     PerThread solvers([&] { return make(); });
     for_each_alone(runs, true, [&](size_t run) {
-      if (!cancelled()) work(solvers.local(), run);
+      if (cancelled()) return;
+      work(solvers.local(), run);
+      const size_t now = done.fetch_add(1, std::memory_order_relaxed) + 1;
+      if (options.progress && std::this_thread::get_id() == caller) options.progress(now, runs);
     });
   });
+  if (options.progress && !cancelled()) options.progress(runs, runs);
 }
 
 }  // namespace csgrun

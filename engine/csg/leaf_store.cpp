@@ -8,6 +8,7 @@
 #include <glm/vec2.hpp>
 
 #include "engine/bsp/kernel.h"
+#include "engine/mesh/mesh_lists.h"
 
 namespace csgrun {
 namespace {
@@ -39,6 +40,12 @@ std::optional<Error> find_fault(const PolygonMesh& mesh) {
   const auto fault = [&](const char* what) {
     return Error{ErrorCode::kInvalidMesh, "the mesh of '" + mesh.kind + "' " + what, {}};
   };
+  if (!has_sound_lists(mesh)) return fault("has lists of loops and faces that do not go together");
+  const auto has_empty = [](const std::vector<uint32_t>& starts) {
+    return std::adjacent_find(starts.begin(), starts.end()) != starts.end();
+  };
+  if (has_empty(mesh.face_starts) || has_empty(mesh.loop_starts))
+    return fault("has a face without corners");
   if (const char* const what = find_corner_fault(mesh)) return fault(what);
   const size_t faces = mesh.face_count();
   if ((!mesh.surface.empty() && mesh.surface.size() != faces) ||

@@ -178,6 +178,20 @@ bool NormalForm::absorbs(Cluster& cluster, const Item& item) const {
   return is_associative || !cluster.has_first;
 }
 
+/// Whether a value holds all that a difference has left so far, as far as is plain: it is what the
+/// difference takes from, a union of that and others, or that less no more than was taken.
+bool NormalForm::takes_all(const Cluster& difference, uint32_t value) const {
+  if (value == difference.first) return true;
+  const NormalNode& node = nodes_[value];
+  if (node.kind != NormalNode::Kind::kOperator) return false;
+  const auto all = operands(value);
+  if (node.op == BooleanOp::kUnion)
+    return std::find(all.begin(), all.end(), difference.first) != all.end();
+  return node.op == BooleanOp::kDifference && all[0] == difference.first &&
+         std::all_of(all.begin() + 1, all.end(),
+                     [&](uint32_t taken) { return difference.members.contains(taken); });
+}
+
 void NormalForm::collect(Cluster& cluster, uint32_t value) const {
   const bool is_empty = value == kEmptyIndex;
   if (cluster.is_hull) {
@@ -204,6 +218,12 @@ void NormalForm::collect(Cluster& cluster, uint32_t value) const {
   }
   const bool is_associative =
       cluster.op == BooleanOp::kUnion || cluster.op == BooleanOp::kIntersection;
+  // What is taken away from itself is nothing, also within a union; no surface need be held against
+  // itself for that.
+  if (cluster.op == BooleanOp::kDifference && takes_all(cluster, value)) {
+    cluster.is_empty = true;
+    return;
+  }
   const auto append = [&](uint32_t operand) {
     // A second time the same operand changes nothing, except in a symmetric difference.
     if (cluster.op != BooleanOp::kSymmetricDifference && !cluster.members.insert(operand).second) {
@@ -255,6 +275,7 @@ Result<uint32_t> NormalForm::add(const NodePtr& root) {
     if (node.kind() == NodeKind::kEmpty) {
       value = kEmptyIndex;
     } else if (node.kind() == NodeKind::kLeaf) {
+      if (!node.mesh()) return Error{ErrorCode::kInternal, "a leaf of the tree has no mesh", {}};
       value = leaf(item);
     } else if (node.kind() == NodeKind::kOuterHull && is_mesh(node.children()[0].get())) {
       auto hulled = hulled_leaf(item);

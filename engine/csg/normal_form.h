@@ -76,6 +76,7 @@ class NormalForm {
   Status unwrap(Item& item) const;
   uint32_t leaf(const Item& item);
   Result<uint32_t> hulled_leaf(const Item& item);
+  [[nodiscard]] bool takes_all(const Cluster& difference, uint32_t value) const;
   void collect(Cluster& cluster, uint32_t value) const;
   uint32_t finish(Cluster& cluster);
   bool absorbs(Cluster& cluster, const Item& item) const;

@@ -10,6 +10,7 @@
 
 #include "engine/base/none.h"
 #include "engine/mesh/flat_points.h"
+#include "engine/mesh/mesh_lists.h"
 #include "engine/mesh/mesh_text.h"
 
 namespace csgrun {
@@ -35,16 +36,6 @@ class Places {
   std::vector<std::string>& all_;
   size_t count_ = 0;
 };
-
-/// Whether the loops are consecutive ranges of the corners, and the faces of the loops.
-bool well_formed(const PolygonMesh& mesh) {
-  const auto ranges = [](const std::vector<uint32_t>& starts, size_t size) {
-    return !starts.empty() && starts.front() == 0 && starts.back() == size &&
-           std::is_sorted(starts.begin(), starts.end());
-  };
-  return ranges(mesh.loop_starts, mesh.corners.size()) &&
-         ranges(mesh.face_starts, mesh.loop_count());
-}
 
 bool loop_is_degenerate(const PolygonMesh& mesh, uint32_t begin, uint32_t end) {
   if (end - begin < 3) return true;
@@ -151,7 +142,7 @@ MeshReport check_mesh(const PolygonMesh& mesh) {
   MeshReport report;
   Places bad(report.first_places), infinite(report.first_places), flat(report.first_places),
       open(report.first_places), misoriented(report.first_places);
-  if (!well_formed(mesh)) {
+  if (!has_sound_lists(mesh)) {
     report.bad_indices = 1;
     bad.add(std::string(kBadIndex) + "in the lists of loops and faces");
     return report;

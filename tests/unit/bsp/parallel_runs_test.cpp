@@ -61,7 +61,11 @@ TEST(ParallelRuns, AreDoneOnceEach) {
       EXPECT_EQ(sorted, all);
       if (threads > 1 && runs > 1) {
         EXPECT_LE(done.solvers, threads);
-        EXPECT_TRUE(done.progress.empty());
+        // What the calling thread saw, and that all is done.
+        ASSERT_FALSE(done.progress.empty());
+        EXPECT_EQ(done.progress.back(), std::pair(runs, runs));
+        EXPECT_TRUE(std::is_sorted(done.progress.begin(), done.progress.end()));
+        for (const auto& [at, of] : done.progress) EXPECT_EQ(of, runs);
         continue;
       }
       EXPECT_EQ(done.runs, all);

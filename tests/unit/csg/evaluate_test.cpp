@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <csgrun/engine/evaluate.h>
+#include <csgrun/engine/validate.h>
 
 #include "test_meshes.h"
 
@@ -167,6 +168,28 @@ TEST(Evaluate, PartsOfOneSolidAreEvaluatedOneByOne) {
       EXPECT_GT((*whole)->measures.volume, 30);
     }
   }
+}
+
+// What check_mesh finds bad is an error here, too, and nothing is read beyond a list.
+TEST(Evaluate, ListsThatDoNotGoTogetherAreRefused) {
+  const PolygonMesh good = *cube(2)->mesh();
+  std::vector<PolygonMesh> bad(8, good);
+  bad[0].loop_starts.back() = 1000;
+  bad[1].face_starts.back() = 1000;
+  bad[2].face_starts[3] = bad[2].face_starts[2];
+  bad[3].loop_starts[2] = bad[3].loop_starts[1];
+  bad[4].loop_starts.clear();
+  bad[5].face_starts.clear();
+  std::swap(bad[6].loop_starts[1], bad[6].loop_starts[2]);
+  bad[7].corners.pop_back();
+  for (size_t i = 0; i < bad.size(); ++i) {
+    EXPECT_FALSE(check_mesh(bad[i]).text().empty()) << i;
+    const auto result =
+        Evaluator({}).evaluate(Node::leaf(std::make_shared<PolygonMesh>(bad[i]), SourceRef{}));
+    ASSERT_FALSE(result) << i;
+    EXPECT_EQ(result.error().code, ErrorCode::kInvalidMesh) << i;
+  }
+  EXPECT_FALSE(Evaluator({}).evaluate(Node::leaf(nullptr, SourceRef{})));
 }
 
 // Slices of what somebody looked at before each cut: that is known, and a surface of its own, which

@@ -95,8 +95,16 @@ TEST_F(NormalFormTest, DropsWhatDoesNothing) {
   EXPECT_EQ(text(subtract({unite({none, subtract({a, b})}), c})), "d(a,b,c)");
 }
 
-TEST_F(NormalFormTest, DifferenceOfItselfIsLeftToTheKernel) {
-  EXPECT_EQ(text(subtract({a, a})), "d(a,a)");
+TEST_F(NormalFormTest, WhatIsTakenAwayFromItselfIsNothing) {
+  EXPECT_EQ(text(subtract({a, a})), "0");
+  EXPECT_EQ(text(subtract({a, b, a, c})), "0");
+  EXPECT_EQ(text(subtract({a, unite({b, a})})), "0");
+  EXPECT_EQ(text(subtract({subtract({a, b}), subtract({a, b})})), "0");
+  EXPECT_EQ(text(unite({subtract({a, a}), b})), "b");
+  EXPECT_EQ(text(subtract({b, subtract({a, a})})), "b");
+  // Another place is another solid, and the rest is left to the kernel.
+  EXPECT_NE(text(subtract({a, moved(1, 0, 0, a)})), "0");
+  EXPECT_EQ(text(subtract({unite({a, b}), a})), "d(u(a,b),a)");
   EXPECT_EQ(text(symmetric({a, a})), "x(a,a)");
 }
 

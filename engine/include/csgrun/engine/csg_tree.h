@@ -86,7 +86,7 @@ class Node {
 
   /// A solid without points. It still counts as an operand: empty minus a cube is empty.
   static NodePtr empty(SourceRef where = {});
-  /// A leaf. The mesh must be closed and oriented (see validate_mesh).
+  /// A leaf. The mesh must be closed and oriented (see check_mesh).
   static NodePtr leaf(std::shared_ptr<const PolygonMesh> mesh, SourceRef where = {});
   static NodePtr transformed(const Affine& map, NodePtr child, SourceRef where = {});
   /// Gives every face of the child this appearance; the outermost one wins.

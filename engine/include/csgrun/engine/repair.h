@@ -80,7 +80,8 @@ struct RepairReport {
                                               RepairReport* report);
 
 /// The open boundary of a mesh whose points are welded: "in 2 holes, the largest of 28 edges at
-/// (1, 2, 3)", or empty when it is closed or has no consistent orientation.
+/// (1, 2, 3)", or empty when it is closed or has no consistent orientation. REQUIRES: no bad
+/// indices, as check_mesh counts them.
 [[nodiscard]] std::string describe_holes(const PolygonMesh& mesh);
 
 /// The least repair that makes a mesh a closed one: what is wanted, what is switched off there, a

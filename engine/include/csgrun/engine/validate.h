@@ -33,6 +33,7 @@ struct MeshReport {
 void weld_points(PolygonMesh& mesh);
 
 /// The signed volume in mm^3, in doubles: for telling whether a closed mesh is inside out.
+/// REQUIRES: no bad indices (MeshReport::bad_indices).
 [[nodiscard]] double signed_volume(const PolygonMesh& mesh);
 
 /// Turns every face over.
