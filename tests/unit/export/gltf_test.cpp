@@ -131,6 +131,18 @@ TEST(Gltf, MirroredBakedPartStaysOutsideOut) {
   EXPECT_DOUBLE_EQ(volume(read_stl(encode("stl", {{"m", testing::cube(2), mirror}}))), 8);
 }
 
+TEST(Gltf, PlacesBeyondItsNumbersAreRefused) {
+  for (const double x : {std::nan(""), double{INFINITY}, 1e39}) {
+    for (const char* format : {"glb", "gltf", "stl"}) {
+      Affine placement;
+      placement.m[0][3] = x;
+      WriteReport report;
+      const auto bytes = encode_model(format, {{"box", testing::cube(10), placement}}, report);
+      EXPECT_FALSE(bytes) << format << ' ' << x;
+    }
+  }
+}
+
 TEST(Gltf, NamesOfAnyBytesAreValidText) {
   const std::string name = "caf\xC3\xA9 \xFF\xC0\xAF\xED\xA0\x80";
   const Glb glb = read_glb(encode("glb", {{name, testing::cube(1), {}}}));
