@@ -223,20 +223,7 @@ TEST(DxfDamage, SplineFitPolylines) {
 }
 
 TEST(DxfDamage, MeshesAreNoOutlines) {
-  const auto polyline = [](const char* flags) {
-    return pairs({{0, "POLYLINE"},
-                  {70, flags},
-                  {0, "VERTEX"},
-                  {10, "0"},
-                  {20, "0"},
-                  {0, "VERTEX"},
-                  {10, "4"},
-                  {20, "0"},
-                  {0, "VERTEX"},
-                  {10, "4"},
-                  {20, "4"},
-                  {0, "SEQEND"}});
-  };
+  const auto polyline = testing::dxf_old_triangle;
   for (const FlatFileOptions& options : {FlatFileOptions(), of_tree()}) {
     const FlatFile file =
         read("x.dxf", entities(polyline("1") + polyline("64") + polyline("17") + polyline("16")),

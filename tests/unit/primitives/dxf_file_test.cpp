@@ -133,19 +133,7 @@ TEST(Dxf, Curves) {
   EXPECT_EQ(dxf(polyline("1", "0")).bounds()[1].y,
             0);  // counter-clockwise from left to right: below
   EXPECT_EQ(dxf(polyline("-1", "0")).bounds()[0].y, 0);
-  const std::string old = pairs({{0, "POLYLINE"},
-                                 {70, "1"},
-                                 {0, "VERTEX"},
-                                 {10, "0"},
-                                 {20, "0"},
-                                 {0, "VERTEX"},
-                                 {10, "4"},
-                                 {20, "0"},
-                                 {0, "VERTEX"},
-                                 {10, "4"},
-                                 {20, "4"},
-                                 {0, "SEQEND"}});
-  EXPECT_NEAR(dxf(old).area(), 8, 1e-9);
+  EXPECT_NEAR(dxf(testing::dxf_old_triangle("1")).area(), 8, 1e-9);
   // A clamped quadratic B-spline of one span is a parabola.
   const std::string spline = pairs({{0, "SPLINE"},
                                     {71, "2"},

@@ -15,6 +15,21 @@ std::string entities(const std::string& content, const std::string& blocks) {
          pairs({{0, "ENDSEC"}, {0, "EOF"}});
 }
 
+std::string dxf_old_triangle(const std::string& flags) {
+  return pairs({{0, "POLYLINE"},
+                {70, flags},
+                {0, "VERTEX"},
+                {10, "0"},
+                {20, "0"},
+                {0, "VERTEX"},
+                {10, "4"},
+                {20, "0"},
+                {0, "VERTEX"},
+                {10, "4"},
+                {20, "4"},
+                {0, "SEQEND"}});
+}
+
 std::string dxf_line(double x0, double y0, double x1, double y1, const std::string& layer) {
   return pairs({{0, "LINE"},
                 {8, layer},
