@@ -2,6 +2,14 @@
 
 namespace csgrun {
 
+bool is_in_range(const Appearance& appearance) {
+  const Appearance& a = appearance;
+  for (const float x : {a.red, a.green, a.blue, a.alpha, a.metallic, a.roughness}) {
+    if (!(x >= 0 && x <= 1)) return false;  // nan, too
+  }
+  return true;
+}
+
 uint32_t AppearanceTable::intern(const Appearance& a) {
   KeyBuilder builder("appearance");
   // Adding 0 makes negative zero the same as zero, as operator== has it.

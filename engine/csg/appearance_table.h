@@ -11,6 +11,9 @@
 
 namespace csgrun {
 
+/// Whether all that has a range is in it: colours, alpha, metallic and roughness are from 0 to 1.
+bool is_in_range(const Appearance& appearance);
+
 class AppearanceTable {
  public:
   /// The id of an appearance; a new one when no equal appearance was interned before.

@@ -14,6 +14,9 @@ using Int128 = __int128;
 // rounded.
 constexpr int64_t kLargestPart = (int64_t{1} << 53) - 1;
 
+/// Of exponents that are in range with any numerator and denominator.
+constexpr int kFarthest = 300;
+
 GridStep reduced(int64_t numerator, int64_t denominator, int exponent) {
   const int64_t g = std::gcd(numerator, denominator);
   numerator /= g;
@@ -52,6 +55,18 @@ std::optional<int> parse_exponent(const std::string& text) {
 
 double GridStep::millimetres() const {
   return std::ldexp(static_cast<double>(numerator) / static_cast<double>(denominator), exponent);
+}
+
+std::string GridStep::problem() const {
+  if (automatic()) return {};
+  if (numerator < 0 || denominator <= 0) return "is not positive";
+  if (numerator > kLargestPart || denominator > kLargestPart) return "has too many digits";
+  const bool is_far = exponent < -kFarthest || exponent > kFarthest;
+  if (is_far || !(millimetres() >= 0x1p-200 && millimetres() <= 0x1p200)) {
+    return "is out of range";
+  }
+  if (!(*this == reduced(numerator, denominator, exponent))) return "is not in lowest terms";
+  return {};
 }
 
 Result<GridStep> GridStep::parse(const std::string& text) {
@@ -100,11 +115,7 @@ Result<GridStep> GridStep::parse(const std::string& text) {
     }
     step = reduced(numerator, denominator, tens);
   }
-  if (step.numerator > kLargestPart || step.denominator > kLargestPart) {
-    return bad_step(text, "has too many digits");
-  }
-  const double mm = step.millimetres();
-  if (!(mm >= 0x1p-200 && mm <= 0x1p200)) return bad_step(text, "is out of range");
+  if (const std::string fault = step.problem(); !fault.empty()) return bad_step(text, fault);
   return step;
 }
 

@@ -8,6 +8,7 @@
 #include <glm/vec2.hpp>
 
 #include "engine/bsp/kernel.h"
+#include "engine/csg/appearance_table.h"
 #include "engine/mesh/mesh_lists.h"
 
 namespace csgrun {
@@ -62,6 +63,9 @@ std::optional<Error> find_fault(const PolygonMesh& mesh) {
   }
   for (uint32_t a : mesh.appearance_of) {
     if (a >= mesh.appearances.size()) return fault("has an appearance index out of range");
+  }
+  for (const Appearance& a : mesh.appearances) {
+    if (!is_in_range(a)) return fault("has a colour or material that is not from 0 to 1");
   }
   return std::nullopt;
 }

@@ -113,6 +113,11 @@ Status NormalForm::unwrap(Item& item) const {
         break;
       }
       case NodeKind::kAppearance:
+        if (!is_in_range(node.appearance())) {
+          return Error{ErrorCode::kInvalidArgument,
+                       "a colour or material is out of range: each number of it is from 0 to 1",
+                       node.where()};
+        }
         if (item.paint == kUnpainted) item.paint = appearances_.intern(node.appearance());
         break;
       case NodeKind::kBoolean:

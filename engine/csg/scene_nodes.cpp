@@ -4,6 +4,8 @@
 #include <string>
 #include <utility>
 
+#include <csgrun/engine/validate.h>
+
 #include "engine/bsp/kernel.h"
 #include "engine/csg/leaf_rule.h"
 #include "engine/csg/scene_builder.h"
@@ -144,8 +146,12 @@ Result<SceneNode> SceneBuilder::make_leaf(uint32_t index, const Quantiser& quant
   // frame (engine/exact/widths.h).
   if (is_placed && frame_of_[index] != 0 && !fits_grid(placed_box(index, *leaf))) return result;
   switch (status) {
-    case PreparedLeaf::Status::kOpen:
-      return fault(ErrorCode::kInvalidMesh, "is not closed: an edge lacks its neighbour");
+    case PreparedLeaf::Status::kOpen: {
+      const MeshReport report = check_mesh(mesh);
+      return fault(
+          ErrorCode::kInvalidMesh,
+          "is not closed: " + (report.ok() ? "an edge lacks its neighbour" : report.text()));
+    }
     case PreparedLeaf::Status::kFlat:
       context_.warnings.add(node.leaf->where(),
                             "'" + mesh.kind + "' encloses no volume on the grid and is left out");

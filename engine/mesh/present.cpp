@@ -138,6 +138,7 @@ class Presenter {
         is_large, [&] { whole_.emplace(boundary_, geometry_); },
         [&] { is_merged = merge_faces(boundary_, geometry_, planes_, faces_); });
     if (!is_merged) return not_closed("faces");
+    if (is_cancelled()) return cancelled();
     const WholeOrder& whole = *whole_;
     std::vector<LowestEdge> lowest = lowest_edges();
     std::vector<uint32_t> near;
@@ -156,10 +157,13 @@ class Presenter {
       solid->canonical_hash = canonical_hash(faces_, whole, boundary_, geometry_, context_);
     }
     if (!near.empty()) conform_contacts(faces_, near, geometry_, planes_);
+    if (is_cancelled()) return cancelled();
     if (auto status = triangulate_all(); !status) return status.error();
+    if (is_cancelled()) return cancelled();
     if (auto status = make_vertices(); !status) return status.error();
     fill(*solid);
     if (context_.measuring >= Measuring::kTopology) count_topology(*solid);
+    if (is_cancelled()) return cancelled();
     if (context_.measuring >= Measuring::kButTheCentre) {
       if (auto status = measure(*solid); !status) return status.error();
     }
@@ -167,6 +171,11 @@ class Presenter {
   }
 
  private:
+  [[nodiscard]] bool is_cancelled() const {
+    return context_.cancel && context_.cancel->load(std::memory_order_relaxed);
+  }
+  static Error cancelled() { return {ErrorCode::kCancelled, "the evaluation was cancelled", {}}; }
+
   /// By which the faces are sorted now.
   [[nodiscard]] std::vector<LowestEdge> lowest_edges() const {
     std::vector<LowestEdge> lowest;

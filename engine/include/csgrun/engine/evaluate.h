@@ -31,8 +31,12 @@ struct GridStep {
   bool operator==(const GridStep&) const = default;
   [[nodiscard]] bool automatic() const { return numerator == 0; }
   [[nodiscard]] double millimetres() const;
-  /// Parses "0.001", "1e-3mm", "2^-20mm".
+  /// Parses "0.001", "1e-3mm", "2^-20mm". It is in lowest terms: see problem().
   static Result<GridStep> parse(const std::string& text);
+  /// What is wrong with one that was made by hand, or nothing. Numerator and denominator are odd
+  /// (but for 0/1, which is automatic), positive, at most 2^53 and have no common divisor; it is
+  /// from 2^-200 to 2^200 mm. Evaluations on others are refused (kInvalidArgument).
+  [[nodiscard]] std::string problem() const;
 };
 
 /// The cache of intermediate meshes on disk, which other runs have, too. A folder that cannot be

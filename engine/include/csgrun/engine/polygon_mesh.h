@@ -9,7 +9,8 @@
 
 namespace csgrun {
 
-/// Colour and material of faces. Colour components are sRGB in [0,1], alpha is linear coverage.
+/// Colour and material of faces. Colour components are sRGB, alpha is linear coverage. All numbers
+/// are in [0,1]: trees with others are refused (kInvalidArgument, kInvalidMesh).
 struct Appearance {
   float red = 0.976f, green = 0.843f, blue = 0.173f, alpha = 1.0f;
   float metallic = 0.0f, roughness = 0.6f;
