@@ -41,7 +41,7 @@ enum class GltfContainer { kBinary, kText };
 Result<std::string> encode_gltf(const Parts& parts, GltfContainer container, MeshMaker& maker);
 
 /// JSON with exact coordinates and faces as polygons; nothing is rounded, so nothing is checked.
-/// REQUIRES: Solid::exact_points, and placements that are the identity (else kInternal).
+/// Errors: kInvalidArgument without Solid::exact_points, or with a placement.
 Result<std::string> encode_exact(const Parts& parts);
 
 }  // namespace csgrun

@@ -77,13 +77,16 @@ Result<std::string> encode_exact(const Parts& parts) {
   std::string text = "{\"format\":\"csgrun exact mesh\",\"version\":1,\"unit\":\"mm\",\n";
   std::vector<std::string> list;
   for (const Part& part : parts) {
-    bool complete = part.placement == Affine{};
-    for (const uint32_t point : part.solid->point_of) {
-      complete = complete && point < part.solid->exact_points.size() &&
-                 !part.solid->exact_points[point][0].empty();
+    const auto refused = [&](const std::string& why) {
+      return Error{ErrorCode::kInvalidArgument, "part '" + part.name + "' " + why, {}};
+    };
+    if (!(part.placement == Affine{})) {
+      return refused("has a placement, which a file of exact coordinates has no room for");
     }
-    if (!complete) {
-      return Error{ErrorCode::kInternal, "part '" + part.name + "' has no exact coordinates", {}};
+    for (const uint32_t point : part.solid->point_of) {
+      if (point >= part.solid->exact_points.size() || part.solid->exact_points[point][0].empty()) {
+        return refused("was evaluated without EvaluateOptions::exact_points");
+      }
     }
     list.push_back(part_text(part));
   }

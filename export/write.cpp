@@ -19,8 +19,9 @@ Status check_parts(const std::string& format, const std::vector<Part>& parts) {
     return Error{ErrorCode::kInvalidArgument, "there is no model format '" + format + "'", {}};
   }
   for (const Part& part : parts) {
-    if (!part.solid)
-      return Error{ErrorCode::kInternal, "part '" + part.name + "' has no solid", {}};
+    if (!part.solid) {
+      return Error{ErrorCode::kInvalidArgument, "part '" + part.name + "' has no solid", {}};
+    }
   }
   if (!keeps_parts(format) && parts.size() != 1) {
     return Error{

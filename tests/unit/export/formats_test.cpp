@@ -300,5 +300,25 @@ TEST(Formats, AreKnownByTheirEnding) {
   EXPECT_FALSE(keeps_parts("stl") || keeps_parts("off"));
 }
 
+TEST(Formats, PartsThatCannotBeWrittenAreTheCallersFault) {
+  const auto error_of = [](const char* format, const Part& part) {
+    WriteReport report;
+    const auto result = encode_model(format, {part}, report);
+    EXPECT_FALSE(result);
+    EXPECT_EQ(result.error().code, ErrorCode::kInvalidArgument);
+    return result.error().message;
+  };
+  EXPECT_EQ(error_of("glb", {"lid", nullptr, {}}), "part 'lid' has no solid");
+  EXPECT_EQ(error_of("exact.json", {"lid", testing::cube(1), {}}),
+            "part 'lid' was evaluated without EvaluateOptions::exact_points");
+  auto exact = std::make_shared<Solid>(*testing::cube(1));
+  exact->exact_points.assign(8, {"0", "1/3", "1"});
+  Part part{"lid", exact, {}};
+  WriteReport report;
+  EXPECT_TRUE(encode_model("exact.json", {part}, report));
+  part.placement.m[0][3] = 1;
+  EXPECT_NE(error_of("exact.json", part).find("part 'lid' has a placement"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace csgrun::formats_test

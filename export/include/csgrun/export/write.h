@@ -103,7 +103,8 @@ bool keeps_parts(const std::string& format);
 
 /// The files of a model, in the order in which they must be there: an .obj after its .mtl. A mesh
 /// that failed its check is in them all the same: ask the report before writing. Errors:
-/// kInvalidArgument (an unknown ending, several parts for a format of one), kCancelled, kLimit,
+/// kInvalidArgument (an unknown ending, several parts for a format of one, a part without a solid;
+/// for exact JSON one with a placement, or without Solid::exact_points), kCancelled, kLimit,
 /// kInternal, kOutOfRange.
 Result<std::vector<ModelFile>> encode_files(const std::string& path, const std::vector<Part>& parts,
                                             const WriteOptions& options, WriteReport& report);
