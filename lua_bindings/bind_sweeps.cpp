@@ -61,7 +61,11 @@ int sweep(lua_State* L) {
   if (shape.shape.empty()) {
     push_solid(L, Node::empty(session_of(L).source_ref(L)));
   } else {
-    push_leaf(L, value_or_fail(kSweep, sweep_shape(shape.shape, options)), shape.appearance);
+    const SourceRef where = session_of(L).source_ref(L);
+    const auto counted = [L](PolygonMesh mesh) { return counted_leaf(L, std::move(mesh)); };
+    NodePtr solid = value_or_fail(kSweep, sweep_solid(shape.shape, options, where, counted));
+    if (shape.appearance) solid = Node::painted(*shape.appearance, solid, where);
+    push_solid(L, std::move(solid));
   }
   keep_marks(L, 1);
   return 1;

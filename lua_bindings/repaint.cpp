@@ -24,15 +24,22 @@ bool is_transparent(const Node& node) {
   return node.kind() == NodeKind::kTransform || node.kind() == NodeKind::kBoolean;
 }
 
-/// `children`: with the tree that is evaluated in the place of the node, if there is one, last.
+/// The tree that is evaluated, or hulls are made of, in the place of a node; mostly none.
+const NodePtr& stand_in(const Node& node) {
+  return node.same_solid() ? node.same_solid() : node.rounded_leaf();
+}
+
+/// `children`: with its stand-in, if there is one, last.
 NodePtr with_children(const Node& node, std::vector<NodePtr> children) {
   if (node.kind() == NodeKind::kTransform) {
     return Node::transformed(node.transform(), std::move(children[0]), node.where());
   }
-  if (node.same_solid()) {
-    NodePtr same = std::move(children.back());
+  if (stand_in(node)) {
+    NodePtr last = std::move(children.back());
     children.pop_back();
-    return Node::intersection_as(std::move(children), std::move(same), node.where());
+    return node.same_solid()
+               ? Node::intersection_as(std::move(children), std::move(last), node.where())
+               : Node::difference_as(std::move(children), std::move(last), node.where());
   }
   return Node::boolean(node.op(), std::move(children), node.where());
 }
@@ -50,7 +57,7 @@ NodePtr repaint(const NodePtr& root, const Change& change) {
     }
     if (is_transparent(*node)) {
       std::vector<NodePtr> below = node->children(), children;
-      if (node->same_solid()) below.push_back(node->same_solid());
+      if (stand_in(*node)) below.push_back(stand_in(*node));
       for (const NodePtr& child : below) {
         const auto known = done.find(child.get());
         if (known == done.end()) {

@@ -26,7 +26,8 @@ class Seen {
   std::set<std::pair<const Node*, std::array<double, 12>>> known_;
 };
 
-/// Steps through transforms, appearances and operators of one operand.
+/// Steps through transforms, appearances, operators of one operand, and differences that are leaves
+/// but for rounding.
 void unwrap(PlacedNode& placed) {
   while (true) {
     const Node& node = *placed.node;
@@ -34,6 +35,9 @@ void unwrap(PlacedNode& placed) {
       placed.map = Affine::compose(placed.map, node.transform());
     } else if (node.kind() == NodeKind::kAppearance) {
       if (placed.paint == nullptr) placed.paint = &node.appearance();
+    } else if (node.rounded_leaf()) {
+      placed.node = NodePtr(node.rounded_leaf());
+      continue;
     } else if (node.kind() != NodeKind::kBoolean || node.children().size() != 1) {
       return;
     }

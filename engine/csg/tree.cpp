@@ -75,6 +75,13 @@ NodePtr Node::intersection_as(std::vector<NodePtr> operands, NodePtr same, Sourc
   return node;
 }
 
+NodePtr Node::difference_as(std::vector<NodePtr> operands, NodePtr leaf, SourceRef where) {
+  auto node = made(NodeKind::kBoolean, std::move(operands), std::move(where));
+  node->op_ = BooleanOp::kDifference;
+  node->rounded_leaf_ = std::move(leaf);
+  return node;
+}
+
 NodePtr Node::outer_hull(const OuterHull& options, NodePtr child, SourceRef where) {
   auto node = made(NodeKind::kOuterHull, {std::move(child)}, std::move(where));
   node->outer_hull_ = options;

@@ -243,7 +243,8 @@ Result<NodePtr> rotate_extrude_solid(const Shape2D& shape, const RotateExtrudeOp
     operands.push_back(Node::transformed(map, wedge, where));
   }
   if (operands.size() == 1) return operands[0];
-  return Node::boolean(BooleanOp::kDifference, std::move(operands), where);
+  RotateExtruder plain(shape, turn->angle, options.start, turn->steps, {});
+  return Node::difference_as(std::move(operands), leaf(plain.build()), where);
 }
 
 }  // namespace csgrun

@@ -7,6 +7,8 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <span>
+#include <tuple>
 #include <utility>
 
 #include <glm/geometric.hpp>
@@ -18,6 +20,7 @@
 #include "primitives/shape2d/extrude_facets.h"
 #include "primitives/shape2d/noise_corners.h"
 #include "primitives/shape2d/profile.h"
+#include "primitives/shape2d/sweep_ends.h"
 #include "primitives/solids/mesh_builder.h"
 
 namespace csgrun {
@@ -203,8 +206,39 @@ class Sweeper {
     return std::move(mesh_);
   }
 
+  /// Of the mesh that was built: what takes off what is beyond the ends that become planes, when
+  /// these go on as in `beyond`, which has the points as they are.
+  std::vector<CutEnd> cut_ends(std::span<const glm::dvec3> points,
+                               std::vector<glm::dvec3>& beyond) const {
+    std::vector<CutEnd> ends;
+    for (const bool is_last : {false, true}) {
+      if (options_.closed || (is_last && ends_in_point())) continue;
+      const size_t own = is_last ? rings_.size() - 1 : 0, before = is_last ? own - 1 : 1;
+      const glm::dvec3 forward = frames_[is_last ? frames_.size() - 1 : 0].forward;
+      auto end = cut_end({points, rings_},
+                         {is_last, path_[own], is_last ? forward : -forward, has_flat_walls()});
+      if (!end) continue;
+      for (size_t k = 0; k < rings_[own].size(); ++k) {
+        const uint32_t corner = rings_[own][k];
+        beyond[corner] = beyond_end(points[corner], points[rings_[before][k]], end->beyond);
+      }
+      end->tool.kind = kSweep;
+      ends.push_back(*std::move(end));
+    }
+    return ends;
+  }
+
  private:
   [[nodiscard]] bool ends_in_point() const { return options_.scale == glm::dvec2(0); }
+
+  /// Whether no piece turns the outline or scales it.
+  [[nodiscard]] bool has_flat_walls() const {
+    constexpr double kNoise = 1e-9;  // degrees
+    if (options_.twist != 0 || options_.scale != glm::dvec2(1)) return false;
+    return std::all_of(rolls_.begin(), rolls_.end(), [&](double roll) {
+      return std::fabs(std::remainder(roll - rolls_[0], 360)) < kNoise;
+    });
+  }
 
   void walk() {
     along_.push_back(0);
@@ -269,9 +303,16 @@ class Sweeper {
     }
     // Rounded quadrilaterals are planar only along the axes: triangles are what they say.
     const auto& points = mesh_.points;
-    // Of two equal diagonals the one that the twist leans to, as linear_extrude has it.
-    const bool leans_to_c = (options_.twist < 0) != hole;
-    const bool from_a = is_cut_from_first(points[a], points[b], points[c], points[d], leans_to_c);
+    // Of two equal diagonals the one that the twist leans to, as linear_extrude has it. Without a
+    // twist one that does not depend on which way the outline goes: a wall that two sweeps have in
+    // common is cut alike.
+    const auto is_before = [](const glm::dvec3& v, const glm::dvec3& w) {
+      return std::tie(v.x, v.y, v.z) < std::tie(w.x, w.y, w.z);
+    };
+    const bool is_c_of_equal =
+        options_.twist != 0 ? (options_.twist < 0) != hole : is_before(points[a], points[b]);
+    const bool from_a =
+        is_cut_from_first(points[a], points[b], points[c], points[d], is_c_of_equal);
     mesh_.add_face(std::array<uint32_t, 3>{a, b, from_a ? c : d}, surface);
     mesh_.add_face(std::array<uint32_t, 3>{c, d, from_a ? a : b}, surface);
   }
@@ -295,7 +336,7 @@ class Sweeper {
   std::vector<Lean> leans_;    // of the rings; none: all zero
   std::vector<Frame> frames_;  // of each piece
   std::vector<double> rolls_;  // likewise
-  const std::vector<Shape2D::Loop> loops_;
+  std::vector<Shape2D::Loop> loops_;
   Profile profile_;
   std::vector<double> along_;   // how far each point of the path lies from its start
   std::vector<uint32_t> bend_;  // per piece: how many sharp turns lie before it
@@ -343,9 +384,7 @@ std::optional<Error> check_turns(const std::vector<glm::dvec3>& path, bool close
   return std::nullopt;
 }
 
-}  // namespace
-
-MeshResult sweep_shape(const Shape2D& shape, const SweepOptions& options) {
+Result<Sweeper> make_sweeper(const Shape2D& shape, const SweepOptions& options) {
   if (shape.empty()) return invalid_argument("sweep: the shape is empty");
   if (auto error = check(options)) return *error;
   std::vector<glm::dvec3> path;
@@ -387,8 +426,35 @@ MeshResult sweep_shape(const Shape2D& shape, const SweepOptions& options) {
     if (options.upright) rolls.push_back(angle_between(frames.back(), *upright));
   }
   return Sweeper(shape, std::move(loops), options, std::move(way), std::move(frames),
-                 std::move(rolls))
-      .build();
+                 std::move(rolls));
+}
+
+}  // namespace
+
+MeshResult sweep_shape(const Shape2D& shape, const SweepOptions& options) {
+  auto sweeper = make_sweeper(shape, options);
+  if (!sweeper) return sweeper.error();
+  return sweeper->build();
+}
+
+Result<NodePtr> sweep_solid(const Shape2D& shape, const SweepOptions& options,
+                            const SourceRef& where, const MakeLeaf& make_leaf) {
+  const auto leaf = [&](PolygonMesh mesh) {
+    return make_leaf ? make_leaf(std::move(mesh))
+                     : Node::leaf(std::make_shared<const PolygonMesh>(std::move(mesh)), where);
+  };
+  auto sweeper = make_sweeper(shape, options);
+  if (!sweeper) return sweeper.error();
+  PolygonMesh mesh = sweeper->build();
+  std::vector<glm::dvec3> beyond = mesh.points;
+  std::vector<CutEnd> ends = sweeper->cut_ends(mesh.points, beyond);
+  if (ends.empty()) return leaf(std::move(mesh));
+  PolygonMesh longer = mesh;
+  longer.points = std::move(beyond);
+  std::vector<NodePtr> operands{leaf(std::move(longer))};
+  for (CutEnd& end : ends)
+    operands.push_back(Node::transformed(end.map, leaf(std::move(end.tool)), where));
+  return Node::difference_as(std::move(operands), leaf(std::move(mesh)), where);
 }
 
 }  // namespace csgrun

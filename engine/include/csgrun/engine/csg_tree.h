@@ -69,6 +69,8 @@ class Node {
   [[nodiscard]] const std::vector<NodePtr>& children() const { return children_; }
   /// Of an intersection_as: the tree that is evaluated in its place; else null.
   [[nodiscard]] const NodePtr& same_solid() const { return same_solid_; }
+  /// Of a difference_as: the leaf; else null.
+  [[nodiscard]] const NodePtr& rounded_leaf() const { return rounded_leaf_; }
   [[nodiscard]] const Affine& transform() const { return *transform_; }
   [[nodiscard]] const Appearance& appearance() const { return *appearance_; }
   /// Of a kOuterHull.
@@ -97,6 +99,9 @@ class Node {
   /// An intersection whose faces and labels another tree has as well, one that is smaller: that is
   /// evaluated in its place. Who asks a tree for its colours sees the operands.
   static NodePtr intersection_as(std::vector<NodePtr> operands, NodePtr same, SourceRef where = {});
+  /// A difference whose solid is, but for rounding to the grid, that of a leaf: hulls, Minkowski
+  /// sums and lengths for resized, for which corners are rounded in any case, are made of the leaf.
+  static NodePtr difference_as(std::vector<NodePtr> operands, NodePtr leaf, SourceRef where = {});
   /// The outer hull of a surface: of the mesh itself, as it crosses itself, when the child is a
   /// leaf under transforms and appearances; else of the boundary of the child's solid.
   static NodePtr outer_hull(const OuterHull& options, NodePtr child, SourceRef where = {});
@@ -125,7 +130,7 @@ class Node {
   bool has_sums_ = false;
   OuterHull outer_hull_;
   std::vector<NodePtr> children_;
-  NodePtr same_solid_;
+  NodePtr same_solid_, rounded_leaf_;
   std::unique_ptr<Affine> transform_;
   std::unique_ptr<Appearance> appearance_;
   std::unique_ptr<Resize> resize_;

@@ -39,6 +39,13 @@ struct SweepOptions {
 /// multiple of 360. Where the outline is upright, no piece of the path may go along `up`. Equal
 /// points one after another count once. Errors: kInvalidArgument, kLimit.
 MeshResult sweep_shape(const Shape2D& shape, const SweepOptions& options);
+/// The same as a tree, made at `where`: a leaf less a box for each end that is not across an axis.
+/// So these ends are planes, which depend on the place and the direction of the path there, and
+/// those of different outlines, or of sweeps that go on from one another, are flush. (Not where
+/// other parts of the sweep are so near that there is no room for it.) `make_leaf` makes the
+/// leaves; null: Node::leaf.
+Result<NodePtr> sweep_solid(const Shape2D& shape, const SweepOptions& options,
+                            const SourceRef& where, const MakeLeaf& make_leaf = nullptr);
 
 /// What lies at a height of a loft: a shape, or a point of which the walls rise or to which they
 /// come together.
