@@ -38,20 +38,14 @@ int dominant_axis(const Vec128& n) {
 /// Points of a face as seen along an axis, from the side where its front is.
 class ProjectedOracle final : public PlanarOracle {
  public:
-  enum class Sweep : uint8_t { kByFront, kByAxis };
-  /// kByAxis: the sweep is the same for either front. Flat faces that lie on one another, as those
-  /// of stacked extrusions, are divided in the same way by it, lest every sliver of one meets every
-  /// sliver of the other. (How a bent face is divided is what becomes of it.)
-  ProjectedOracle(const std::vector<IVec3>& vertices, int axis, bool front_is_positive,
-                  Sweep sweep = Sweep::kByFront)
-      : vertices_(vertices), u_((axis + 1) % 3), v_((axis + 2) % 3) {
-    if (front_is_positive) return;
-    if (sweep == Sweep::kByAxis) {
-      front_ = -1;
-    } else {
-      std::swap(u_, v_);
-    }
-  }
+  /// The sweep is the same for either front, so that faces that lie on one another are divided in
+  /// the same way: flat ones, as those of stacked extrusions, lest every sliver of one meets every
+  /// sliver of the other; bent ones, as those of a plug and its socket, lest there are gaps.
+  ProjectedOracle(const std::vector<IVec3>& vertices, int axis, bool front_is_positive)
+      : vertices_(vertices),
+        u_((axis + 1) % 3),
+        v_((axis + 2) % 3),
+        front_(front_is_positive ? 1 : -1) {}
   int orient(uint32_t a, uint32_t b, uint32_t c) const override {
     const IVec3 &p = vertices_[a], &q = vertices_[b], &r = vertices_[c];
     return front_ * sign(static_cast<Int128>(q[u_] - p[u_]) * (r[v_] - p[v_]) -
@@ -82,7 +76,7 @@ class ProjectedOracle final : public PlanarOracle {
  private:
   const std::vector<IVec3>& vertices_;
   int u_, v_;
-  int front_ = 1;  ///< +1 when (u, v) is right-handed seen from the front
+  int front_;  ///< +1 when (u, v) is right-handed seen from the front
 };
 
 bool lies_in(const CornerPlane& plane, const std::vector<IVec3>& vertices, Corners loop) {
@@ -158,9 +152,7 @@ std::vector<LoopTriangle> triangles_of(const std::vector<IVec3>& vertices, const
   for (int turn = 0; turn < 3; ++turn) {
     const int axis = (best + turn) % 3;
     if (normal[axis] == 0) continue;
-    const ProjectedOracle oracle(
-        vertices, axis, normal[axis] > 0,
-        is_flat ? ProjectedOracle::Sweep::kByAxis : ProjectedOracle::Sweep::kByFront);
+    const ProjectedOracle oracle(vertices, axis, normal[axis] > 0);
     if (prefer_convex && !is_flat && face.loops.size() == 1 && face.loops[0].size() == 4 &&
         oracle.is_convex(face.loops[0])) {
       const auto triangles = bulging_triangles(vertices, face.loops[0]);
