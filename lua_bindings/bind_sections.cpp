@@ -1,6 +1,7 @@
 // Solids cut and taken apart: project, slice, split, trim, decompose.
 #include <cmath>
 
+#include <fmt/format.h>
 #include <glm/geometric.hpp>
 
 #include <csgrun/primitives/projection.h>

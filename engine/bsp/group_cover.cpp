@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "engine/bsp/operand_groups.h"
+#include "engine/bsp/pruned_expression.h"
 #include "engine/bsp/ray_boxes.h"
 #include "engine/bsp/ray_label.h"
 #include "engine/bsp/rounded_box.h"
@@ -19,6 +20,8 @@ namespace {
 using Position = std::array<double, 3>;
 
 constexpr size_t kPoints = 64;  ///< of a sample
+/// Of doubles below 2^31, with room to spare.
+constexpr double kRounding = 0x1p-16;
 
 /// Places that are spread evenly.
 struct Spread {
@@ -131,8 +134,6 @@ class CoverSample {
   }
 
  private:
-  /// Of doubles below 2^31, with room to spare.
-  static constexpr double kRounding = 0x1p-16;
   static constexpr uint32_t kNowhere = UINT32_MAX;
 
   /// Whether `is_wanted` holds for another operand of the group in which one stands.
@@ -222,11 +223,12 @@ double cover_in_groups(const Job& job, const Expression& expression) {
   return points == 0 ? 0 : static_cast<double>(covered) / static_cast<double>(points);
 }
 
-double contact_cover_in_groups(const Job& job, const Expression& expression,
-                               std::span<const Contact> contacts) {
-  const std::optional<GroupedOperands> wide = grouped_operands(expression);
-  if (!wide) return 0;
-  CoverSample sample(job, *wide);
+namespace {
+
+/// The part of plain contacts, the same ones each time, for which `is_covered(a, b, middle)` holds:
+/// of operands a and b, about the middle of what their faces have in common.
+template <class Covered>
+double covered_part(const Job& job, std::span<const Contact> contacts, Covered&& is_covered) {
   size_t points = 0, covered = 0;
   for (size_t i = 0; i < kPoints; ++i) {
     const size_t begin = i * contacts.size() / kPoints, end = (i + 1) * contacts.size() / kPoints;
@@ -235,11 +237,40 @@ double contact_cover_in_groups(const Job& job, const Expression& expression,
         std::find_if(some.begin(), some.end(), [](const Contact& c) { return c.is_plain; });
     if (plain == some.end()) continue;
     const uint32_t a = job.polygons()[plain->p].operand, b = job.polygons()[plain->q].operand;
-    const Position middle = middle_of(job, *plain);
     ++points;
-    covered += sample.is_covered(middle, a, b) || sample.is_covered(middle, b, a) ? 1 : 0;
+    covered += is_covered(a, b, middle_of(job, *plain)) ? 1 : 0;
   }
   return points == 0 ? 0 : static_cast<double>(covered) / static_cast<double>(points);
+}
+
+}  // namespace
+
+double contact_cover_in_groups(const Job& job, const Expression& expression,
+                               std::span<const Contact> contacts) {
+  const std::optional<GroupedOperands> wide = grouped_operands(expression);
+  if (!wide) return 0;
+  CoverSample sample(job, *wide);
+  return covered_part(job, contacts, [&](uint32_t a, uint32_t b, const Position& middle) {
+    return sample.is_covered(middle, a, b) || sample.is_covered(middle, b, a);
+  });
+}
+
+double hidden_contacts(const Job& job, const Expression& expression,
+                       std::span<const Contact> contacts) {
+  const PrunedExpression pruned(expression);
+  VertexSigns signs(job, true);
+  RayBoxes boxes(job);
+  std::vector<Inside> scratch;
+  return covered_part(job, contacts, [&](uint32_t a, uint32_t b, const Position& middle) {
+    const auto label_of = [&](uint32_t operand) {
+      if (operand == a || operand == b) return Inside::kUnknown;
+      const double error =
+          std::max({signs.error(a), signs.error(b), signs.error(operand)}) + kRounding;
+      if (!may_hold(job.operand_box(operand), middle, error)) return Inside::kNo;
+      return ray_label(job, signs, boxes, operand, middle, error);
+    };
+    return pruned.evaluate(label_of, scratch) != Inside::kUnknown;
+  });
 }
 
 double meeting_boxes(const Job& job) {

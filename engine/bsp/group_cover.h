@@ -20,6 +20,11 @@ double cover_in_groups(const Job& job, const Expression& expression);
 double contact_cover_in_groups(const Job& job, const Expression& expression,
                                std::span<const Contact> contacts);
 
+/// Which part of the contacts of two operands, of those that are plain, is boundary of nothing
+/// whatever these two are there, by all others. Estimated from a sample. O(operands).
+double hidden_contacts(const Job& job, const Expression& expression,
+                       std::span<const Contact> contacts);
+
 /// How many polygons of other operands have boxes that meet that of a polygon, on average.
 /// Estimated from a sample, the same one each time. O(operands).
 double meeting_boxes(const Job& job);

@@ -27,6 +27,9 @@ namespace {
 /// With so many plain contacts a polygon, cells that prune the expression are less work than
 /// arrangements of all that meets a polygon, much of it inside what another one removes.
 constexpr size_t kDense = 64;
+/// So it is with so many, where a third operand removes most of what two have in common.
+constexpr size_t kDenseIfHidden = 12;
+constexpr double kHidden = 0.75;
 
 /// With so many, groups of operands are less work, if within them so much is dropped. What groups
 /// leave has many faces, and asks long rays of one another.
@@ -61,7 +64,9 @@ class FaceEvaluator {
         ContactTable(find_contacts(job_, plainly_, options_, stats_), job_.polygons().size());
     if (is_cancelled()) return cancelled();
     if (is_found_crowded()) return crowded();
-    if (has_plain_contacts(kDense)) {
+    if (has_plain_contacts(kDense) ||
+        (has_plain_contacts(kDenseIfHidden) &&
+         hidden_contacts(job_, expression_, contacts_.all()) >= kHidden)) {
       result_.general.assign(job_.polygons().size(), 1);
       result_.any_general = true;
       return std::move(result_);

@@ -213,10 +213,7 @@ TEST(OperandGroups, WhatToolsOffTheGridLeave) {
   EXPECT_NE(whole, grouped) << "it was done in one job";
 }
 
-// Nearly all of their surface is outside of the others, and nearly all that cuts it inside.
-TEST(OperandGroups, RodsThroughOnePlaceAreEvaluatedInGroups) {
-  const std::vector<Operand> rods = turned_cuboids(40, {30'000, 200, 200}, 5512);
-  const Job job(rods);
+std::vector<Contact> contacts_of(const Job& job) {
   std::vector<Contact> contacts;
   PairTest test(job);
   for (uint32_t p = 0; p < job.polygons().size(); ++p) {
@@ -228,11 +225,42 @@ TEST(OperandGroups, RodsThroughOnePlaceAreEvaluatedInGroups) {
       }
     }
   }
+  return contacts;
+}
+
+// Two boxes that go through one another, and a third one around them, or beside them.
+TEST(OperandGroups, ContactsAreHiddenByOthers) {
+  const auto box = [](const IVec3& lo, const IVec3& hi) {
+    return convex_operand(test::box_loops(lo, hi));
+  };
+  const Operand a = box({0, 0, 0}, {50, 20, 20}), b = box({20, -10, 5}, {30, 40, 15});
+  const Job inside({a, b, box({-90, -90, -90}, {90, 90, 90})}),
+      beside({a, b, box({60, 60, 60}, {90, 90, 90})});
+  const auto hidden = [](const Job& job, BooleanOp op) {
+    return hidden_contacts(job, test::flat_expression(op, 3), contacts_of(job));
+  };
+  EXPECT_EQ(hidden(inside, BooleanOp::kUnion), 1);
+  EXPECT_EQ(hidden(inside, BooleanOp::kIntersection), 0);
+  EXPECT_EQ(hidden(inside, BooleanOp::kDifference), 1);  // a less all
+  EXPECT_EQ(hidden(inside, BooleanOp::kSymmetricDifference), 0);
+  EXPECT_EQ(hidden(beside, BooleanOp::kUnion), 0);
+  EXPECT_EQ(hidden(beside, BooleanOp::kIntersection), 1);
+  EXPECT_EQ(hidden(beside, BooleanOp::kDifference), 0);
+  EXPECT_EQ(hidden_contacts(beside, test::flat_expression(BooleanOp::kIntersection, 3), {}), 0);
+}
+
+// Nearly all of their surface is outside of the others, and nearly all that cuts it inside.
+TEST(OperandGroups, RodsThroughOnePlaceAreEvaluatedInGroups) {
+  const std::vector<Operand> rods = turned_cuboids(40, {30'000, 200, 200}, 5512);
+  const Job job(rods);
+  const std::vector<Contact> contacts = contacts_of(job);
   for (const BooleanOp op : {BooleanOp::kUnion, BooleanOp::kDifference}) {
     const Expression expression = test::flat_expression(op, 40);
     EXPECT_LT(cover_in_groups(job, expression), 0.25);
     EXPECT_GT(contact_cover_in_groups(job, expression, contacts), 0.5);
     EXPECT_EQ(contact_cover_in_groups(job, expression, {}), 0);
+    EXPECT_GE(hidden_contacts(job, expression, contacts),
+              contact_cover_in_groups(job, expression, contacts));
     const auto [grouped, whole] =
         signs_of_both(rods, expression, op == BooleanOp::kUnion ? 240 : 7);
     if (op == BooleanOp::kUnion) {
