@@ -64,9 +64,7 @@ class FaceEvaluator {
         ContactTable(find_contacts(job_, plainly_, options_, stats_), job_.polygons().size());
     if (is_cancelled()) return cancelled();
     if (is_found_crowded()) return crowded();
-    if (has_plain_contacts(kDense) ||
-        (has_plain_contacts(kDenseIfHidden) &&
-         hidden_contacts(job_, expression_, contacts_.all()) >= kHidden)) {
+    if (has_plain_contacts(kDense) || is_mostly_hidden()) {
       result_.general.assign(job_.polygons().size(), 1);
       result_.any_general = true;
       return std::move(result_);
@@ -102,6 +100,14 @@ class FaceEvaluator {
     const auto plain = std::count_if(contacts_.all().begin(), contacts_.all().end(),
                                      [](const Contact& c) { return c.is_plain; });
     return static_cast<size_t>(plain) > each * (job_.polygons().size() + job_.far_face_count());
+  }
+
+  /// Not with a result in pieces: cells would want all of it.
+  [[nodiscard]] bool is_mostly_hidden() const {
+    return std::none_of(job_.operands().begin(), job_.operands().end(),
+                        [](const Operand& o) { return o.pieces != nullptr; }) &&
+           has_plain_contacts(kDenseIfHidden) &&
+           hidden_contacts(job_, expression_, contacts_.all()) >= kHidden;
   }
 
   WholeFaces crowded() {
